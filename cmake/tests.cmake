@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+# One executable a suite: a process starts once, the driver's compiled shaders are shared.
+enable_testing()
+include(GoogleTest)
+
+# gn_suite(name SOURCES ... LINK ... [GPU]): GPU suites run with validation on and a shared shader cache.
+function(gn_suite name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  if(NOT arg_SOURCES)
+    return()
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LINK} gn_options GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE GNOMON_SOURCE_DIR="${CMAKE_SOURCE_DIR}" GNOMON_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT
+    "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/mesa-cache;GNOMON_CACHE=${CMAKE_BINARY_DIR}/gnomon-cache;ASAN_OPTIONS=detect_leaks=0;LSAN_OPTIONS=detect_leaks=0")
+endfunction()
+
+file(GLOB base_tests CONFIGURE_DEPENDS base/*_test.cpp)
+gn_suite(base_tests SOURCES ${base_tests} LINK gn_base)
+file(GLOB gpu_tests CONFIGURE_DEPENDS gpu/*_test.cpp)
+gn_suite(gpu_tests SOURCES ${gpu_tests} LINK gn_gpu)
+file(GLOB_RECURSE scene_tests CONFIGURE_DEPENDS shadow/scene/*_test.cpp scenes/*_test.cpp)
+gn_suite(scene_tests SOURCES ${scene_tests} LINK gn_scene)
+file(GLOB reference_tests CONFIGURE_DEPENDS reference/*_test.cpp)
+gn_suite(reference_tests SOURCES ${reference_tests} LINK gn_reference)
+file(GLOB metrics_tests CONFIGURE_DEPENDS shadow/metrics/*_test.cpp)
+gn_suite(metrics_tests SOURCES ${metrics_tests} LINK gn_metrics)
+file(GLOB shadow_tests CONFIGURE_DEPENDS shadow/*_test.cpp shadow/view/*_test.cpp shadow/placement/*_test.cpp
+     shadow/map/*_test.cpp shadow/lookup/*_test.cpp shadow/direct/*_test.cpp shadow/visibility/*_test.cpp
+     shadow/shading/*_test.cpp tests/*_test.cpp)
+gn_suite(part_tests SOURCES ${shadow_tests} ${part_tests} LINK gn_shadow gn_reference gn_metrics)
+file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
+gn_suite(app_tests SOURCES ${app_tests} LINK gn_base)
+if(TARGET app_tests)
+  add_dependencies(app_tests gnomon)
+  target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
+endif()
+add_test(NAME layout_tests COMMAND python3 ${CMAKE_SOURCE_DIR}/tests/layout_test.py)

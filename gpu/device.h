@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A Vulkan 1.3 device: own and headless, or adopted from a host renderer. Knows no shadow.
+#pragma once
+
+#include "base/error.h"
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gn {
+
+class ShaderCompiler;
+class PipelineCache;
+class MemoryPool;
+
+/// A failed Vulkan call becomes an Error that names the call: GN_VK(vkQueueSubmit2(...)).
+void vk_check(VkResult result, const char* call, const char* file, int line);
+#define GN_VK(call) ::gn::vk_check((call), #call, __FILE__, __LINE__)
+
+struct DeviceInfo {
+    std::string name, driver;  ///< "llvmpipe (LLVM 15.0.6, 256 bits)", "Mesa 22.3.6 (LLVM 15.0.6)"
+    bool cpu = false;          ///< a software rasterizer: passes are timed by submits and the host clock
+    std::string why;           ///< one sentence: why this device was chosen
+};
+
+/// Optional features that parts may ask for. Each is queried; none is assumed.
+enum class Feature {
+    anisotropy,
+    layer_from_vertex_shader,
+    conservative_rasterization,
+    fragment_interlock,
+    ray_query,
+    float32_blend,
+    float32_filter,
+    depth32_stencil8,
+    shader_float64,
+    atomic_float_add,
+    subgroup_arithmetic,
+    timestamps,  ///< meaningful ones
+};
+inline constexpr int feature_count = 12;
+std::string_view feature_name(Feature feature);
+/// What a missing feature rules out or falls back to, one sentence.
+std::string_view feature_consequence(Feature feature);
+
+struct DeviceOptions {
+    bool validation = false;  ///< core and synchronization validation; messages are collected
+    std::string pick;         ///< part of a device's name; empty: the best, a real GPU before a CPU
+};
+
+/// What a host renderer lends. The queue must support graphics and compute and stay externally synchronized.
+struct AdoptedDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+};
+
+class Device {
+  public:
+    static std::unique_ptr<Device> create(const DeviceOptions& options = {});
+    /// Throws Error when the host's device lacks what Gnomon needs (dynamic rendering, synchronization2, push
+    /// descriptors, scalar block layout).
+    static std::unique_ptr<Device> adopt(const AdoptedDevice& host);
+    virtual ~Device() = default;
+
+    [[nodiscard]] virtual const DeviceInfo& info() const = 0;
+    [[nodiscard]] virtual bool has(Feature feature) const = 0;
+    [[nodiscard]] virtual VkInstance instance() const = 0;
+    [[nodiscard]] virtual VkPhysicalDevice physical() const = 0;
+    [[nodiscard]] virtual VkDevice vk() const = 0;
+    [[nodiscard]] virtual VkQueue queue() const = 0;
+    [[nodiscard]] virtual std::uint32_t queue_family() const = 0;
+    [[nodiscard]] virtual const VkPhysicalDeviceProperties& properties() const = 0;
+
+    [[nodiscard]] virtual ShaderCompiler& shaders() = 0;
+    [[nodiscard]] virtual PipelineCache& pipelines() = 0;
+    [[nodiscard]] virtual MemoryPool& memory() = 0;
+
+    /// Records with `record`, submits, waits. Throws Error on a lost device.
+    virtual void run(const std::function<void(VkCommandBuffer)>& record) = 0;
+    /// Validation messages (errors and warnings, performance hints filtered) since the device was made.
+    [[nodiscard]] virtual const std::vector<std::string>& messages() const = 0;
+};
+
+/// A line per physical device, and for the one that would be picked its features, formats, limits and what they rule
+/// out; the text of `gnomon doctor`. Never throws: a machine without Vulkan is a sentence.
+struct DoctorReport {
+    bool usable = false;
+    std::vector<std::string> lines;
+};
+DoctorReport examine_machine();
+
+}  // namespace gn

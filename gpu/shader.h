@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Shaders: a short prologue of includes composed at run time, compiled by libshaderc, cached on disk by the hash of the
+// whole preprocessed source.
+#pragma once
+
+#include "base/error.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gn {
+
+enum class ShaderKind { vertex, fragment, compute, geometry };
+
+/// GLSL without a #version line. `#include "shadow/lookup/pcf/pcf.glsl"` is resolved from the data root. The compiler
+/// prepends version 460 and the extensions every shader may use (scalar_block_layout, shader_viewport_layer_array for
+/// vertex shaders, gather, buffer_reference off).
+struct ShaderSource {
+    ShaderKind kind = ShaderKind::compute;
+    std::string name;  ///< for errors and labels
+    std::string text;
+};
+
+/// A binding found in compiled code, for binding by name.
+struct ShaderBinding {
+    std::uint32_t binding = 0;
+    std::uint32_t vk_descriptor_type = 0;
+};
+
+struct CompiledShader {
+    ShaderKind kind = ShaderKind::compute;
+    std::string name;
+    std::vector<std::uint32_t> spirv;
+    std::map<std::string, ShaderBinding, std::less<>> bindings;  ///< set 0 only, by the variable's (or block's instance, else block's) name
+    std::uint32_t push_constant_bytes = 0;
+};
+
+class ShaderCompiler {
+  public:
+    /// An empty cache folder turns the disk cache off.
+    ShaderCompiler(std::filesystem::path include_root, std::filesystem::path cache_folder);
+    ~ShaderCompiler();
+    /// Throws Error with the include's own file and line. The result stays valid as long as the compiler.
+    const CompiledShader& compile(const ShaderSource& source);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gn

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The truth: V traced by Embree on the CPU for exactly the view samples that the GPU rendered.
+#pragma once
+
+#include "shadow/scene/scene.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace gn {
+
+struct TruthOptions {
+    int samples = 256;      ///< of the light per view sample; rounded up to a power of two
+    uint seed = 0;
+    int threads = 0;        ///< 0: all; changes nothing in the result
+    bool integral = false;  ///< also C eq. 1.3: sum of V x cosine-weighted radiance over the light
+};
+
+struct TruthResult {
+    std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
+    std::vector<float> standard_error;  ///< per sample, of `visibility`
+    std::vector<std::uint8_t> counted;  ///< 1 where gn_counted holds and a surface is seen
+    std::vector<float> irradiance;      ///< with options.integral: unshadowed-geometry integral C eq. 1.3, same units as the light's irradiance; else empty
+    double mean_standard_error = 0;     ///< over counted samples: of the mean
+    double seconds = 0;
+};
+
+/// Embree's acceleration structure over one scene; the scene must outlive it.
+class Truth {
+  public:
+    explicit Truth(const Scene& scene);
+    ~Truth();
+    Truth(const Truth&) = delete;
+    Truth& operator=(const Truth&) = delete;
+    /// position_ws (w = 1: surface) and normal_ws per view sample. progress(0..1), when given, is called from one thread.
+    [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const GnLight& light,
+                                    const TruthOptions& options, const std::function<void(double)>& progress = {}) const;
+    /// One exact question, for tests: is the segment (p, q) blocked?
+    [[nodiscard]] bool blocked(dvec3 p_ws, dvec3 q_ws) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Owen-scrambled Sobol point i of the 2D sequence with this seed, in [0,1)^2.
+vec2 sobol_owen(uint i, uint seed);
+/// Point (u in [0,1)^2) on the light as seen from p: direction to it (unit) and distance (infinite if directional).
+struct LightPoint {
+    vec3 direction_ws;
+    float distance;
+};
+LightPoint sample_light(const GnLight& light, vec3 p_ws, vec2 u);
+
+}  // namespace gn

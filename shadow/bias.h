@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The bias of every map recipe: orthogonal parameters, `bias.*` in recipes. See docs/bias.md.
+#ifndef GN_SHADOW_BIAS_H
+#define GN_SHADOW_BIAS_H
+
+#include "base/shared.h"
+
+struct GnBias {
+    float constant GN_DEFAULT(0.1f);        ///< texels towards the light
+    float constant_world GN_DEFAULT(0.0f);  ///< metres towards the light
+    float slope GN_DEFAULT(0.0f);           ///< texels towards the light per unit of tan(angle of incidence)
+    float slope_max GN_DEFAULT(16.0f);      ///< limit of that tangent
+    float normal GN_DEFAULT(0.5f);          ///< texels along the normal, scaled by the sine of the angle of incidence
+    float normal_world GN_DEFAULT(0.0f);    ///< metres along the normal, likewise
+    int receiver_plane GN_DEFAULT(1);       ///< 1: taps compare with the receiver's plane, not with one depth
+};
+
+#endif

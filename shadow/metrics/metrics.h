@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Errors by name. T: the technique's visibility, R: the reference's, over the counted samples.
+#pragma once
+
+#include "base/image.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gn {
+
+/// Every figure; a value that has no samples is absent, never 0.
+struct Errors {
+    std::size_t samples = 0;
+    std::optional<double> rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker;
+};
+
+struct MetricInfo {
+    std::string_view name, sentence;
+    std::optional<double> Errors::*value;
+};
+/// In the order of DESIGN: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker.
+std::span<const MetricInfo> all_metrics();
+
+/// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel.
+Errors visibility_errors(std::span<const float> technique, std::span<const float> reference,
+                         std::span<const std::uint8_t> counted, int width, int height);
+/// The pixels within one pixel of a discontinuity of R: what `edge` counts; exact methods are judged outside it.
+std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::span<const std::uint8_t> counted, int width,
+                                      int height);
+/// Several lights pooled: as if their samples were one list.
+Errors pool(std::span<const Errors> lights);
+
+/// Display-ready RGB pictures in [0,1], sRGB-encoded.
+double luma_rms(const Image& a, const Image& b);
+/// Mean FLIP, and its map when `map` is given. Andersson et al. 2020. pixels_per_degree as the paper's default.
+double flip(const Image& a, const Image& b, Image* map = nullptr, float pixels_per_degree = 67.0206F);
+
+}  // namespace gn

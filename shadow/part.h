@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A part: an idea that belongs to one stage, one folder. The folder's .cpp defines one function
+//
+//     const gn::Part& gn::parts::lookup_pcf();   // <stage>_<id>, with '-' of the id written as '_'
+//
+// and the build finds it; there is no list to add it to.
+#pragma once
+
+#include "base/param.h"
+#include "shadow/stages.h"
+
+namespace gn {
+
+struct Recipe;
+
+/// Which lights a part serves.
+struct LightKinds {
+    bool directional = false, spot = false, point = false, rectangle = false;
+    [[nodiscard]] bool has(uint kind) const;
+    [[nodiscard]] std::string names() const;
+};
+inline constexpr LightKinds all_lights{true, true, true, true};
+
+class Part {
+  public:
+    std::string_view id;        ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
+    Stage stage = Stage::lookup;
+    std::string_view title;     ///< "Percentage-closer filtering"
+    std::string_view citation;  ///< key in docs/references.bib
+    std::string_view needs;     ///< lookup: what the map must give ("depth", "moments"); else ""
+    std::string_view gives;     ///< map: what it gives; else ""
+    LightKinds lights = all_lights;
+    std::vector<Feature> features;  ///< without which the part is refused
+    ParamTable params;
+    std::string_view params_type;   ///< GLSL and C++ name of the struct: "GnPcfParams"; "" when there are none
+    std::string_view glsl;          ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none
+
+    // Exactly one of these is set, by stage.
+    LightViews (*place)(const FrameInput&, const Recipe&) = nullptr;
+    ShadowMap (*add_map)(const FrameInput&, const Recipe&, const LightViews&) = nullptr;
+    /// Lookups normally leave this null: the shared resolve pass calls their GLSL function for every sample.
+    Visibility (*add_lookup)(const FrameInput&, const Recipe&, const LightViews&, const ShadowMap&) = nullptr;
+    Visibility (*add_direct)(const FrameInput&, const Recipe&) = nullptr;
+    Visibility (*add_visibility)(const FrameInput&, const Recipe&, const Visibility&) = nullptr;
+    /// Lookups: guard band in texels around each view's rectangle that the kernel may reach into.
+    float (*guard_texels)(const Recipe&, const GnLight&) = nullptr;
+    /// A combination it cannot do: the sentence why, or "". Asked before anything is drawn.
+    std::string (*refuses)(const Scene&, const Light&, const Recipe&) = nullptr;
+    /// Tap counts and the like that become specialization constants of the resolve pass.
+    SpecConstants (*constants)(const Recipe&) = nullptr;
+};
+
+/// Every part, generated from the folders; sorted by stage and id.
+std::span<const Part* const> all_parts();
+/// Throws Error listing the known ids of the stage.
+const Part& find_part(Stage stage, std::string_view id);
+/// "map_moments" for GLSL and C++ names: '-' becomes '_'.
+std::string identifier(std::string_view id);
+
+}  // namespace gn

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The scene: what every later stage works on. CPU only; the reference uses it without any GPU.
+//
+// A loaded scene is flat: every instance's triangles are stored in world space, so that the G-buffer, the maps, the
+// volumes and the truth all see bit-identical positions. Ranges of triangles (objects) remain for culling.
+#pragma once
+
+#include "base/image.h"
+#include "base/math.h"
+#include "shadow/scene/light.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gn {
+
+enum class AlphaMode { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    vec4 base_color{0.8F, 0.8F, 0.8F, 1.0F};  ///< linear rgb, alpha
+    float metallic = 0.0F, roughness = 0.8F;
+    vec3 emissive{0};                          ///< cd/m^2, linear
+    AlphaMode alpha_mode = AlphaMode::opaque;  ///< blend casts and receives as mask with cutoff 0.5
+    float alpha_cutoff = 0.5F;                 ///< a texel with alpha < cutoff is not there
+    int base_color_texture = -1;               ///< index into Scene::textures, or -1
+    bool double_sided = true;
+    /// texture coordinates are transformed by this at load time already; kept for reports only
+};
+
+struct Texture {
+    std::string name;
+    Image8 image;
+    bool repeat_u = true, repeat_v = true;
+};
+
+/// A contiguous range of triangles with one material: one primitive of one instance.
+struct Object {
+    std::string name;
+    std::uint32_t first_triangle = 0, triangle_count = 0;
+    int material = 0;
+    Box bounds_ws;
+};
+
+struct Light {
+    std::string name;
+    GnLight shape;
+};
+
+/// A perspective camera. It looks along forward_ws.
+struct Camera {
+    std::string name = "main";
+    vec3 position_ws{0};
+    vec3 forward_ws{0, 0, -1};
+    vec3 up_ws{0, 1, 0};
+    float yfov = 0.9F;             ///< full vertical angle, radians
+    float near = 0.1F, far = 500;  ///< metres
+};
+
+/// Camera positions over time, for flicker: `frames` cameras in order.
+struct CameraPath {
+    std::string name;
+    std::vector<Camera> frames;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<vec3> positions_ws;  ///< per vertex, metres, relative to origin
+    std::vector<vec3> normals_ws;    ///< per vertex, unit shading normals
+    std::vector<vec2> uvs;           ///< per vertex, for the base colour texture
+    std::vector<uvec3> triangles;    ///< vertex indices, all < positions_ws.size()
+    std::vector<Object> objects;     ///< cover all triangles in order
+    std::vector<Material> materials; ///< never empty
+    std::vector<Texture> textures;
+    std::vector<Light> lights;       ///< never empty after finish_scene
+    std::vector<Camera> cameras;     ///< never empty after finish_scene
+    std::vector<CameraPath> paths;
+    Box bounds_ws;
+    dvec3 origin{0};                 ///< metres; add to a position to get the file's coordinates
+    std::vector<std::string> notes;  ///< what the loader skipped or repaired, one sentence each
+
+    /// Analytic scenes: V of the light by index at a receiver point, or nothing where no closed form holds.
+    std::function<std::optional<double>(std::size_t light, dvec3 p_ws)> closed_form;
+
+    [[nodiscard]] const Camera& camera(std::string_view view_name) const;  ///< "" is the first; throws Error
+};
+
+/// Most lights that a scene keeps; the loader drops the rest with a note.
+inline constexpr std::size_t max_lights = 64;
+/// Most triangles after instancing; more is an Error.
+inline constexpr std::size_t max_triangles = 64'000'000;
+
+/// Loads a built-in scene by name or a file by path (.glb .gltf .obj .toml and what Assimp knows). A built-in name may
+/// carry parameters: "tilted:angle=85", "contact:size=2". Throws Error with one sentence; never reads outside the
+/// file's folder; ends in bounded time and memory.
+Scene load_scene(const std::string& name_or_path);
+
+/// Completes a scene: bounds, origin (re-centres scenes far from zero), normals where missing, degenerate and
+/// non-finite triangles dropped with a note, default camera and sun where none is given, lights capped.
+void finish_scene(Scene& scene);
+
+struct BuiltinScene {
+    std::string name, sentence, parameters;  ///< parameters: "angle=60 (0 to 89 degrees)" or ""
+};
+/// The built-in scenes, in the order to show them.
+const std::vector<BuiltinScene>& builtin_scenes();
+/// Makes a built-in scene. Throws Error listing the known names.
+Scene make_builtin_scene(const std::string& name_and_parameters);
+
+/// Luminous parts of a Vulkan projection for a camera: cs_from_ws with reversed depth (near 1, far 0).
+mat4 vs_from_ws(const Camera& camera);
+mat4 cs_from_vs(const Camera& camera, float aspect);
+
+}  // namespace gn

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The types of the flow, in order. With shadow/frame.cpp the file to read first.
+//
+//     scene -> view samples -> placement -> map -> lookup -> visibility image -> shading -> picture
+//                                  \______ direct (no map) ______/
+#pragma once
+
+#include "gpu/frame_graph.h"
+#include "shadow/bias.h"
+#include "shadow/light_view.h"
+#include "shadow/scene/scene.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gn {
+
+enum class Stage { placement, map, lookup, direct, visibility };
+inline constexpr std::array<std::string_view, 5> stage_names{"placement", "map", "lookup", "direct", "visibility"};
+
+/// The scene on the GPU. Made once by upload_scene; imported into each frame's graph.
+struct SceneGpu {
+    const Scene* scene = nullptr;
+    Buffer positions;  ///< vec3 per vertex (scalar layout, 12 bytes), world space
+    Buffer normals;    ///< vec3 per vertex
+    Buffer uvs;        ///< vec2 per vertex
+    Buffer indices;    ///< uvec3 per triangle
+    std::vector<Texture2D> textures;  ///< as Scene::textures, RGBA8 sRGB, mipmapped; index 0 of an empty scene is white
+    Texture2D white;
+};
+SceneGpu upload_scene(Device& device, const Scene& scene);
+
+/// The scene's buffers in one frame's graph.
+struct SceneHandles {
+    BufferHandle positions, normals, uvs, indices;
+    std::vector<TextureHandle> textures;
+    TextureHandle white;
+};
+
+/// The camera's constants for shaders (std140 and scalar agree).
+struct GnViewConstants {
+    mat4 cs_from_ws{1};     ///< reversed depth: near 1, far 0
+    mat4 ws_from_cs{1};
+    vec4 eye_ws{0};         ///< xyz
+    uvec4 size{0};          ///< width, height, 0, 0
+};
+
+/// One G-buffer: what each pixel of the view sees. Where no surface is seen, position.w = 0.
+struct ViewSamples {
+    uint width = 0, height = 0;
+    Camera camera;
+    GnViewConstants constants;
+    TextureHandle position;        ///< RGBA32F: p_ws, 1 (surface) or 0 (none)
+    TextureHandle normal;          ///< RGBA32F: geometric normal n_ws towards the camera, w = distance along the view axis
+    TextureHandle shading_normal;  ///< RGBA16F: interpolated normal, towards the camera; w = object id (for ids bias) as float
+    TextureHandle albedo;          ///< RGBA8 sRGB: base colour
+    TextureHandle material;        ///< RGBA8: roughness, metallic, 0, 0
+    TextureHandle depth;           ///< D32_SFLOAT_S8: reversed depth of the camera; stencil is free for direct parts
+};
+
+/// The same samples on the CPU, for the truth and the metrics: width * height entries, rows top to bottom.
+struct CpuSamples {
+    uint width = 0, height = 0;
+    Camera camera;
+    std::vector<vec4> position_ws;  ///< w = 1 where a surface is seen
+    std::vector<vec4> normal_ws;    ///< xyz geometric, towards the camera; w = distance along the view axis
+};
+
+/// What parts of all stages get to see of the frame.
+struct FrameInput {
+    Device& device;
+    FrameGraph& graph;
+    const Scene& scene;
+    const SceneHandles& handles;
+    const ViewSamples& samples;
+    const CpuSamples* cpu_samples = nullptr;  ///< when the caller has them (never required by shipping recipes)
+    std::size_t light_index = 0;
+    [[nodiscard]] const Light& light() const { return scene.lights[light_index]; }
+};
+
+class Part;
+class ParamBlock;
+
+/// placement: where the light looks from.
+struct LightViews {
+    std::vector<GnLightView> views;
+    std::uint32_t resolution = 1024;  ///< texels along a side of every layer
+    std::uint32_t layers = 1;
+    const Part* part = nullptr;       ///< its GLSL chooses the view of a receiver
+    std::vector<std::byte> glsl_params;  ///< bytes of the struct the part's GLSL choice function takes
+    BufferHandle buffer;              ///< GnLightView[], on the GPU; made by frame.cpp unless the placement set it
+    std::vector<std::vector<std::uint32_t>> casters;  ///< per view: indices into Scene::objects that may cast; empty: all
+};
+
+/// map: what a texel stores.
+struct ShadowMap {
+    TextureHandle texture;     ///< 2D array, one layer a view (or as the part's GLSL reads it)
+    TextureHandle extra;       ///< a second texture where the part needs one, else invalid
+    SamplerDesc sampler;       ///< how the texture is read when filtered
+    const Part* part = nullptr;
+};
+
+/// lookup or direct or visibility: V in [0,1] for every view sample, R32F; 0 where the sample does not count.
+struct Visibility {
+    TextureHandle image;
+};
+
+}  // namespace gn
