@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// What a recipe cannot do, asked before anything is drawn.
+#include "shadow/check_recipe.h"
+
+#include <array>
+
+namespace gn {
+namespace {
+
+/// Ids of a stage's parts for which `fits` holds, "depth, moments", or "none".
+template <class Fits>
+std::string ids_of(Stage stage, const Fits& fits) {
+    std::string list;
+    for (const Part* part : all_parts()) {
+        if (part->stage == stage && fits(*part)) {
+            list += list.empty() ? "" : ", ";
+            list += part->id;
+        }
+    }
+    return list.empty() ? "none" : list;
+}
+
+std::string mismatch_of(const Part& map, const Part& lookup) {
+    if (lookup.needs.empty() || lookup.needs == map.gives) {
+        return {};
+    }
+    return fmt::format("lookup '{}' reads {} but map '{}' gives {}; maps that give {}: {}; lookups that read {}: {}",
+                       lookup.id, lookup.needs, map.id, map.gives, lookup.needs,
+                       ids_of(Stage::map, [&](const Part& part) { return part.gives == lookup.needs; }), map.gives,
+                       ids_of(Stage::lookup, [&](const Part& part) { return part.needs == map.gives; }));
+}
+
+void check_part(const Part& part, const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
+    constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
+    const std::string_view stage = stage_names[static_cast<std::size_t>(part.stage)];
+    if (!part.lights.has(light.shape.kind)) {
+        refuse("{} '{}' does not serve {} lights such as '{}'; it serves {} lights", stage, part.id,
+               kinds.at(light.shape.kind), light.name, part.lights.names());
+    }
+    for (const Feature feature : part.features) {
+        if (!device.has(feature)) {
+            refuse("{} '{}' needs the feature {}, which device '{}' lacks", stage, part.id, feature_name(feature),
+                   device.info().name);
+        }
+    }
+    if (part.refuses != nullptr) {
+        if (const std::string sentence = part.refuses(scene, light, recipe); !sentence.empty()) {
+            refuse("{}", sentence);
+        }
+    }
+}
+
+}  // namespace
+
+void check_complete(const Recipe& recipe) {
+    if (recipe.lookup != nullptr && recipe.map == nullptr) {
+        fail("recipe {}: lookup '{}' reads a map and none is named; maps that give {}: {}", recipe.name,
+             recipe.lookup->id, recipe.lookup->needs,
+             ids_of(Stage::map, [&](const Part& part) { return part.gives == recipe.lookup->needs; }));
+    }
+    if (recipe.map != nullptr && recipe.lookup == nullptr) {
+        fail("recipe {}: map '{}' is read by no lookup; lookups that read {}: {}", recipe.name, recipe.map->id,
+             recipe.map->gives,
+             ids_of(Stage::lookup, [&](const Part& part) { return part.needs == recipe.map->gives; }));
+    }
+}
+
+void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
+    // The stages must fit each other before anything is asked of one.
+    if (recipe.map != nullptr && recipe.lookup != nullptr) {
+        if (const std::string sentence = mismatch_of(*recipe.map, *recipe.lookup); !sentence.empty()) {
+            refuse("{}", sentence);
+        }
+        check_part(recipe.placement_for(light.shape), recipe, scene, light, device);
+    }
+    for (const Part* part : {recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        if (part != nullptr) {
+            check_part(*part, recipe, scene, light, device);
+        }
+    }
+}
+
+}  // namespace gn
