@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "apps/options.h"
+
+#include "base/param.h"
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace gn {
+namespace {
+
+constexpr int max_side = 8192;
+
+constexpr const char* description =
+    "Gnomon: every real-time shadow technique behind one interface, each measured against ray-traced truth.";
+
+constexpr const char* examples = R"(Examples:
+  gnomon list recipes                              what can be compared
+  gnomon show pcf                                  a technique's manual page and parameters
+  gnomon render model.glb -r pcf -o model.png      one picture with shadows
+  gnomon compare courtyard -r hard -r pcf,resolution=2048,pcf.taps=25 -o report
+  gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
+  gnomon doctor                                    what this machine's driver can do
+
+SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
+.toml file. RECIPE is a recipe's name or .toml file, followed by overrides: pcf,resolution=2048,bias.normal=1.
+Exit status: 0 all that was asked for was done; 1 something failed; 2 wrong usage or unreadable input. A refused
+recipe is no failure unless --strict is given.)";
+
+constexpr const char* compare_examples = R"(Examples:
+  gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
+  gnomon compare fence corridor -r hard -r hard,resolution=4096 --json figures.json
+  gnomon compare car.glb -r pcf --light sun --samples 1024 --size 1280x720 -o report
+
+Results are kept in DIR/results as soon as they are measured: the same command again only measures what is missing.
+A run is ok when it served at least one light; a light that it refused has status and reason of its own.)";
+
+Size parse_size(const std::string& text) {
+    Size size{0, 0};
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool separated = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!separated || height.ec != std::errc{} || height.ptr != end || std::min(size.width, size.height) < 1 ||
+        std::max(size.width, size.height) > max_side) {
+        throw InputError(fmt::format("--size: '{}' is no size; it is written WIDTHxHEIGHT in pixels, 1x1 to {}x{}", text,
+                                     max_side, max_side));
+    }
+    return size;
+}
+
+/// The command line as it would be typed again.
+std::string quoted_command(int argc, char** argv) {
+    std::string line = "gnomon";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain = !word.empty() && word.find_first_of(" '\"$\\`*?[](){}<>|&;#~!\n\t") == std::string::npos;
+        if (plain) {
+            line += " " + word;
+            continue;
+        }
+        line += " '";
+        for (const char c : word) {
+            line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        }
+        line += "'";
+    }
+    return line;
+}
+
+/// Everything that CLI11 writes into, for the length of one parse.
+struct Parser {
+    CLI::App app{description, "gnomon"};
+    ListOptions list;
+    ShowOptions show;
+    RenderOptions render;
+    CompareOptions compare;
+    std::string render_size, compare_size;
+    bool verbose = false;
+
+    Parser() {
+        app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
+        app.add_flag("-v,--verbose", verbose, "Say on standard error what is being done");
+        app.require_subcommand(1);
+        app.footer(examples);
+        add_list();
+        add_render();
+        add_compare();
+        app.add_subcommand("doctor", "What this machine's driver can do, and what that rules out");
+        for (CLI::App* command : app.get_subcommands({})) {
+            command->fallthrough();
+        }
+    }
+
+    void add_list() {
+        CLI::App* command = app.add_subcommand("list", "Names of parts, recipes, scenes and metrics");
+        command->add_option("WHAT", list.what, "parts, recipes, scenes or metrics; all of them when left out");
+        command->add_flag("--json", list.json, "Print JSON");
+        CLI::App* page = app.add_subcommand("show", "The manual page of a part, a recipe, a scene or a metric");
+        page->add_option("ID", show.id, "A name that 'gnomon list' prints; 'stage/part' where it means several")->required();
+    }
+
+    void add_render() {
+        CLI::App* command = app.add_subcommand("render", "One picture of a scene with one recipe's shadows");
+        command->add_option("SCENE", render.scene, "Built-in name or file")->required();
+        command->add_option("-r,--recipe", render.recipe, "Recipe with overrides (default: pcf)");
+        command->add_option("-o,--output", render.output, "Picture to write, .png or .exr (default: out.png)");
+        command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
+        command->add_option("--view", render.view, "Name of the camera (default: the first)");
+        command->add_option("--visibility", render.visibility, "Also write V as .exr, one channel a light");
+        command->add_flag("--strict", render.strict, "A light that is refused ends with exit status 1");
+        command->add_flag("--validate", render.validate, "Validation layers on; a message ends with exit status 1");
+    }
+
+    void add_compare() {
+        CLI::App* command = app.add_subcommand("compare", "Recipes measured against ray-traced truth, with a report");
+        command->add_option("SCENE", compare.scenes, "Built-in names or files")->required();
+        command->add_option("-r,--recipe", compare.recipes, "Recipes with overrides; may be repeated")->required();
+        command->add_option("-o,--output", compare.folder, "Folder for the report: DIR/index.html (default: report, "
+                                                           "unless --json is given)");
+        command->add_option("--json", compare.json, "Write the figures as JSON; - is standard output");
+        command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
+        command->add_option("--view", compare.view, "Name of the camera (default: the first)");
+        command->add_option("--light", compare.light, "Measure this light only (default: all)");
+        command->add_option("--samples", compare.samples, "Of the light, for the truth (default: 256)")
+            ->check(CLI::Range(1, 1 << 20));
+        command->add_option("--repeat", compare.repeat, "Timed frames after one that warms up (default: 5)")
+            ->check(CLI::Range(1, 1000));
+        command->add_option("--threads", compare.threads, "0 means all; changes no error, only times (default: 0)")
+            ->check(CLI::Range(0, 1024));
+        command->add_flag("--fresh", compare.fresh, "Measure again what DIR/results already has");
+        command->add_flag("--strict", compare.strict, "A refusal ends with exit status 1");
+        command->add_flag("--validate", compare.validate, "Validation layers on; a message fails the run");
+        command->footer(compare_examples);
+    }
+};
+
+[[noreturn]] void fail_unexpected(const CLI::App& app, const std::string& word) {
+    // Name the options of the command that was being read.
+    const std::vector<const CLI::App*> chosen = app.get_subcommands({}).empty()
+                                                    ? std::vector<const CLI::App*>{}
+                                                    : app.get_subcommands([](const CLI::App* a) { return a->parsed(); });
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw InputError(fmt::format("{}: '{}' is not expected here; {}", command.get_name(), word, suggest(word, known)));
+}
+
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word.starts_with('-')) {
+            continue;
+        }
+        if (std::find(known.begin(), known.end(), word) == known.end()) {
+            throw InputError(fmt::format("unknown command '{}'; {}", word, suggest(word, known)));
+        }
+        return;
+    }
+    if (argc < 2) {
+        throw InputError(fmt::format("no command given; {} ('gnomon --help' explains them)", suggest("", known)));
+    }
+}
+
+void parse(Parser& parser, int argc, char** argv) {
+    try {
+        parser.app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        throw;
+    } catch (const CLI::CallForVersion&) {
+        throw;
+    } catch (const CLI::ExtrasError&) {
+        const std::vector<std::string> rest = parser.app.remaining(true);
+        fail_unexpected(parser.app, rest.empty() ? "?" : rest.front());
+    } catch (const CLI::ParseError& error) {
+        std::string sentence = error.what();
+        std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+        throw InputError(fmt::format("{} ('gnomon {}--help' explains)", sentence,
+                                     parser.app.get_subcommands().empty()
+                                         ? ""
+                                         : parser.app.get_subcommands().front()->get_name() + " "));
+    }
+}
+
+}  // namespace
+
+std::optional<Command> parse_command_line(int argc, char** argv) {
+    // Let CLI11 answer --help and --version, and put its complaints into one sentence.
+    Parser parser;
+    check_command_name(parser.app, argc, argv);
+    try {
+        parse(parser, argc, argv);
+    } catch (const CLI::ParseError& answered) {
+        parser.app.exit(answered);
+        return std::nullopt;
+    }
+    spdlog::set_level(parser.verbose ? spdlog::level::info : spdlog::level::warn);
+    // Hand over the one command that was named.
+    const std::string name = parser.app.get_subcommands().front()->get_name();
+    if (name == "list") {
+        return parser.list;
+    }
+    if (name == "show") {
+        return parser.show;
+    }
+    if (name == "render") {
+        parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
+        return parser.render;
+    }
+    if (name == "compare") {
+        parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
+        parser.compare.command = quoted_command(argc, argv);
+        if (parser.compare.folder.empty() && parser.compare.json.empty()) {
+            parser.compare.folder = "report";
+        }
+        return parser.compare;
+    }
+    return DoctorOptions{};
+}
+
+}  // namespace gn

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The command line, parsed: one struct a command, and what each command is run with.
+#pragma once
+
+#include "base/error.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gn {
+
+/// Wrong usage or unreadable input: ends the command with exit status 2.
+struct InputError : Error {
+    using Error::Error;
+};
+
+/// Runs `body`; a user's mistake in it (scene, recipe, name) becomes an InputError with the same sentence.
+template <class Body>
+auto reading(const Body& body) {
+    try {
+        return body();
+    } catch (const InputError&) {
+        throw;
+    } catch (const Error& error) {
+        throw InputError(error.what());
+    }
+}
+
+/// Exit statuses of the command.
+inline constexpr int exit_done = 0, exit_failed = 1, exit_input = 2;
+
+struct Size {
+    int width = 640, height = 360;  ///< pixels
+};
+
+struct ListOptions {
+    std::string what;  ///< parts, recipes, scenes, metrics, or "" for all
+    bool json = false;
+};
+
+struct ShowOptions {
+    std::string id;
+};
+
+struct RenderOptions {
+    std::string scene, recipe = "pcf", output = "out.png", view, visibility;
+    Size size;
+    bool strict = false, validate = false;
+};
+
+struct CompareOptions {
+    std::vector<std::string> scenes, recipes;
+    std::string folder, json, view, light;  ///< "" where not asked for
+    Size size;
+    int samples = 256, repeat = 5, threads = 0;
+    bool strict = false, validate = false, fresh = false;
+    std::string command;  ///< the command line that asks for the same again
+};
+
+struct DoctorOptions {};
+
+using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, DoctorOptions>;
+
+/// What the command line asks for; nothing when it was answered already (--help, --version).
+/// Throws InputError with one sentence.
+std::optional<Command> parse_command_line(int argc, char** argv);
+
+// One function a command, each in its own file; they return the exit status.
+int run(const ListOptions& options);
+int run(const ShowOptions& options);
+int run(const RenderOptions& options);
+int run(const CompareOptions& options);
+int run(const DoctorOptions& options);
+
+}  // namespace gn

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Manual pages, put together from a part's .md and its parameter rows, or from a recipe's file.
+#include "apps/options.h"
+#include "apps/terminal.h"
+#include "base/paths.h"
+#include "shadow/metrics/metrics.h"
+#include "shadow/recipe.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace gn {
+namespace {
+
+std::string_view stage_of(const Part& part) { return stage_names[static_cast<std::size_t>(part.stage)]; }
+
+std::string range_of(const ParamRow& row) {
+    switch (row.type) {
+        case ParamType::boolean: return "true, false";
+        case ParamType::choice: {
+            std::string list;
+            for (const std::string_view choice : row.choices) {
+                list += fmt::format("{}{}", list.empty() ? "" : ", ", choice);
+            }
+            return list;
+        }
+        default: return fmt::format("{} to {}", row.min, row.max);
+    }
+}
+
+/// Name, value, range, unit and consequence of every parameter of a block.
+std::string parameter_table(const ParamBlock& block, std::string_view group, const std::string& value_title) {
+    std::vector<std::vector<std::string>> rows;
+    for (const ParamRow& row : block.table()->rows) {
+        rows.push_back({fmt::format("{}.{}", group, row.name), block.get(row.name), range_of(row), std::string(row.unit),
+                        std::string(row.sentence)});
+    }
+    return text_table({"parameter", value_title, "range", "unit", "consequence"}, rows, 5);
+}
+
+/// The recipes that name the part.
+std::string users_of(const Part& part) {
+    std::string list;
+    for (const std::string& name : recipe_names()) {
+        const Recipe recipe = load_recipe(name);
+        for (const Part* used : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+            if (used == &part) {
+                list += (list.empty() ? "" : ", ") + name;
+            }
+        }
+    }
+    return list.empty() ? "none that names it" : list;
+}
+
+void show_part(const Part& part) {
+    fmt::print("{} '{}': {}\n\n", stage_of(part), part.id, part.title);
+    // What a reader of the table of contents wants to know first.
+    std::string features;
+    for (const Feature feature : part.features) {
+        features += fmt::format("{}{}", features.empty() ? "" : ", ", feature_name(feature));
+    }
+    fmt::print("  source    [{}]\n  lights    {}\n", part.citation, part.lights.names());
+    fmt::print("{}", part.needs.empty() ? "" : fmt::format("  reads     maps that give {}\n", part.needs));
+    fmt::print("{}", part.gives.empty() ? "" : fmt::format("  gives     {}\n", part.gives));
+    fmt::print("{}", features.empty() ? "" : fmt::format("  features  {}\n", features));
+    fmt::print("  recipes   {}\n\n", users_of(part));
+    // The page itself, then the rows.
+    const std::string name = identifier(part.id);
+    std::ifstream page(data_root() / "shadow" / stage_of(part) / name / (name + ".md"), std::ios::binary);
+    std::stringstream text;
+    text << page.rdbuf();
+    fmt::print("{}{}", text.str(), text.str().empty() ? "" : "\n");
+    if (part.params.rows.empty()) {
+        fmt::print("It has no parameters.\n");
+    } else {
+        fmt::print("{}", parameter_table(ParamBlock(part.params), part.id, "default"));
+    }
+}
+
+std::string part_name(const Part* part, std::string_view absent) { return std::string(part ? part->id : absent); }
+
+void show_recipe(const std::string& name) {
+    const Recipe recipe = load_recipe(name);
+    const bool mapped = recipe.map != nullptr;
+    fmt::print("recipe '{}': {}\n\n{}\n\n", recipe.name, recipe.title, recipe.paragraph);
+    // Its parts in flow order.
+    fmt::print("  source      [{}]\n", recipe.citation);
+    if (mapped) {
+        fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", part_name(recipe.placement, "auto"),
+                   part_name(recipe.map, "none"), part_name(recipe.lookup, "none"));
+        fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, 16, 16384);
+        fmt::print("  casters     {} faces, of all, front, back\n", recipe.casters);
+    } else {
+        fmt::print("  direct      {}\n", part_name(recipe.direct, "none"));
+    }
+    fmt::print("  visibility  {}\n", part_name(recipe.visibility, "none"));
+    // The parameters that take part, as this recipe sets them.
+    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        if (part != nullptr && !part->params.rows.empty()) {
+            fmt::print("\n{}", parameter_table(recipe.block(*part), part->id, "value"));
+        }
+    }
+    if (mapped) {
+        ParamTable bias = bias_params;
+        std::memcpy(bias.defaults.data(), &recipe.bias, sizeof recipe.bias);
+        fmt::print("\n{}", parameter_table(ParamBlock(bias), "bias", "value"));
+    }
+}
+
+void show_scene(const BuiltinScene& scene) {
+    fmt::print("scene '{}': {}\n", scene.name, scene.sentence);
+    fmt::print("{}", scene.parameters.empty() ? "It has no parameters.\n"
+                                              : fmt::format("Parameters, written {}:name=value: {}\n", scene.name,
+                                                            scene.parameters));
+}
+
+/// Shows everything of that name and returns how many things there were.
+int show_all(const std::string& id) {
+    int shown = 0;
+    const auto next = [&] { fmt::print("{}", shown++ == 0 ? "" : "\n\n"); };
+    const std::string name = identifier(id);
+    for (const std::string& recipe : recipe_names()) {
+        if (identifier(recipe) == name) {
+            next();
+            show_recipe(recipe);
+        }
+    }
+    for (const Part* part : all_parts()) {
+        if (identifier(part->id) == name || identifier(fmt::format("{}/{}", stage_of(*part), part->id)) == name) {
+            next();
+            show_part(*part);
+        }
+    }
+    for (const BuiltinScene& scene : builtin_scenes()) {
+        if (identifier(scene.name) == name) {
+            next();
+            show_scene(scene);
+        }
+    }
+    for (const MetricInfo& metric : all_metrics()) {
+        if (identifier(metric.name) == name) {
+            next();
+            fmt::print("metric '{}': {}\n", metric.name, metric.sentence);
+        }
+    }
+    return shown;
+}
+
+[[noreturn]] void fail_unknown(const std::string& id) {
+    std::vector<std::string> names = recipe_names();
+    for (const Part* part : all_parts()) {
+        names.emplace_back(part->id);
+    }
+    for (const BuiltinScene& scene : builtin_scenes()) {
+        names.push_back(scene.name);
+    }
+    for (const MetricInfo& metric : all_metrics()) {
+        names.emplace_back(metric.name);
+    }
+    names.emplace_back("bias");
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    throw InputError(fmt::format("show: nothing is called '{}'; {}", id, suggest(id, known)));
+}
+
+}  // namespace
+
+int run(const ShowOptions& options) {
+    // Bias belongs to every map recipe and to no part.
+    if (options.id == "bias") {
+        fmt::print("bias: moves the receiver before it is compared, in every recipe with a map\n\n{}",
+                   parameter_table(ParamBlock(bias_params), "bias", "default"));
+        return exit_done;
+    }
+    const bool file = options.id.ends_with(".toml");
+    if (file) {
+        reading([&] { show_recipe(options.id); });
+    } else if (show_all(options.id) == 0) {
+        fail_unknown(options.id);
+    }
+    return exit_done;
+}
+
+}  // namespace gn
