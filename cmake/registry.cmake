@@ -3,6 +3,7 @@
 function(gn_registry output sources_out tests_out)
   set(declarations "")
   set(entries "")
+  set(count 0)
   set(sources "")
   set(tests "")
   foreach(stage placement map lookup direct visibility)
@@ -12,10 +13,13 @@ function(gn_registry output sources_out tests_out)
         continue()
       endif()
       get_filename_component(id ${folder} NAME)
+      if(NOT id MATCHES "^[a-z][a-z0-9_]*$")
+        message(FATAL_ERROR "${folder}: a part's folder is lower-case letters, digits and '_'")
+      endif()
+      file(GLOB part_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
       if(NOT EXISTS ${folder}/${id}.cpp)
         continue()
       endif()
-      file(GLOB part_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
       foreach(source ${part_sources})
         if(source MATCHES "_test\\.cpp$")
           list(APPEND tests ${source})
@@ -25,6 +29,7 @@ function(gn_registry output sources_out tests_out)
       endforeach()
       string(APPEND declarations "const Part& ${stage}_${id}();\n")
       string(APPEND entries "        &parts::${stage}_${id}(),\n")
+      math(EXPR count "${count} + 1")
     endforeach()
   endforeach()
   file(GENERATE OUTPUT ${output} CONTENT
@@ -38,7 +43,7 @@ namespace parts {
 ${declarations}}  // namespace parts
 
 std::span<const Part* const> all_parts() {
-    static const std::array registry{
+    static const std::array<const Part*, ${count}> registry{
 ${entries}    };
     return registry;
 }

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# One executable a suite: a process starts once, the driver's compiled shaders are shared.
+# One executable a suite: a process starts once, the driver's compiled shaders are shared. Every suite is also a line of
+# suites.txt in the build folder, which is what tools/run_tests reads.
 enable_testing()
-include(GoogleTest)
+set(gn_suites "")
 
-# gn_suite(name SOURCES ... LINK ... [GPU]): GPU suites run with validation on and a shared shader cache.
+# gn_suite(name SOURCES ... LINK ...): nothing when there are no sources.
 function(gn_suite name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   if(NOT arg_SOURCES)
@@ -13,9 +14,16 @@ function(gn_suite name)
   target_link_libraries(${name} PRIVATE ${arg_LINK} gn_options GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE GNOMON_SOURCE_DIR="${CMAKE_SOURCE_DIR}" GNOMON_BINARY_DIR="${CMAKE_BINARY_DIR}")
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT
-    "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/mesa-cache;GNOMON_CACHE=${CMAKE_BINARY_DIR}/gnomon-cache;ASAN_OPTIONS=detect_leaks=0;LSAN_OPTIONS=detect_leaks=0")
+  set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT "${gn_test_environment}")
+  set(gn_suites "${gn_suites}${name} $<TARGET_FILE:${name}>\n" PARENT_SCOPE)
 endfunction()
+
+set(gn_test_environment
+    MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/mesa-cache
+    GNOMON_CACHE=${CMAKE_BINARY_DIR}/gnomon-cache
+    ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1
+    LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0
+    UBSAN_OPTIONS=print_stacktrace=1)
 
 file(GLOB base_tests CONFIGURE_DEPENDS base/*_test.cpp)
 gn_suite(base_tests SOURCES ${base_tests} LINK gn_base)
@@ -37,4 +45,23 @@ if(TARGET app_tests)
   add_dependencies(app_tests gnomon)
   target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
 endif()
+file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/suites.txt CONTENT "${gn_suites}")
+
 add_test(NAME layout_tests COMMAND python3 ${CMAKE_SOURCE_DIR}/tests/layout_test.py)
+add_test(NAME format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
+
+# Every header compiles alone and twice: one source each, compiled but never linked. Once is enough, in the plain builds.
+if(NOT GNOMON_SANITIZE)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} base/*.h gpu/*.h shadow/*.h reference/*.h)
+  set(header_sources "")
+  foreach(header ${headers})
+    string(MAKE_C_IDENTIFIER ${header} name)
+    set(source ${CMAKE_BINARY_DIR}/headers/${name}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"@header@\"\n#include \"@header@\"  // twice: its guard works\n" @ONLY)
+    list(APPEND header_sources ${source})
+  endforeach()
+  add_library(headers_alone OBJECT ${header_sources})
+  target_include_directories(headers_alone PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(headers_alone PRIVATE gn_options Vulkan::Vulkan fmt::fmt)
+  target_compile_options(headers_alone PRIVATE -O0)
+endif()
