@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/options.h"
 
+#include "apps/output.h"
 #include "base/param.h"
 
 #include <CLI/CLI.hpp>
@@ -57,17 +58,7 @@ Size parse_size(const std::string& text) {
 std::string quoted_command(int argc, char** argv) {
     std::string line = "gnomon";
     for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool plain = !word.empty() && word.find_first_of(" '\"$\\`*?[](){}<>|&;#~!\n\t") == std::string::npos;
-        if (plain) {
-            line += " " + word;
-            continue;
-        }
-        line += " '";
-        for (const char c : word) {
-            line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        }
-        line += "'";
+        line += " " + shell_word(argv[i]);
     }
     return line;
 }

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What a comparison finds: plain values that JSON, table and report are made from.
+#pragma once
+
+#include "gpu/device.h"
+#include "shadow/metrics/metrics.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gn {
+
+inline constexpr int schema_version = 1;
+
+/// Milliseconds over the repeats; absent where nothing was timed.
+struct Spread {
+    std::optional<double> median, min, max;
+};
+Spread spread_of(std::vector<double> values);
+
+struct LightResult {
+    std::string name, status = "ok", reason;  ///< status: ok or refused
+    Errors errors;
+    std::string error_map;                    ///< file beside the report, or ""
+};
+
+struct PassResult {
+    std::string name, group;
+    double median = 0;  ///< milliseconds
+};
+
+struct ResourceResult {
+    std::string name;
+    std::uint64_t bytes = 0;
+};
+
+/// One recipe on one view of one scene. `status` is ok when at least one light was served; lights that were refused
+/// say so themselves. It is refused when every light was, and failed when no figure can be trusted.
+struct RunResult {
+    std::string scene, view, recipe, overrides;
+    int width = 0, height = 0;
+    std::string status = "ok", reason;
+    Errors errors;  ///< all served lights pooled, and the pictures
+    std::vector<LightResult> lights;
+    Spread shadow, frame;
+    std::vector<PassResult> passes;
+    std::uint64_t bytes = 0;
+    std::vector<ResourceResult> resources;
+
+    // For the report only.
+    std::string title, citation, paragraph, picture, error_map, command;
+    std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+struct LightInfo {
+    std::string name, kind, size;  ///< size: "0.53 deg", "0.2 m", "point"
+};
+
+/// The traced truth of one view: what its runs are measured against.
+struct ReferenceResult {
+    int samples = 0;            ///< of the light per view sample
+    double seconds = 0;         ///< over all lights
+    double standard_error = 0;  ///< of the mean of V, averaged over lights
+    std::string picture;        ///< file beside the report, or ""
+};
+
+struct SceneResult {
+    std::string scene, name, view;  ///< as asked for, as it calls itself, and the camera
+    int width = 0, height = 0;
+    std::uint64_t triangles = 0;
+    std::vector<LightInfo> lights;
+    std::vector<std::string> notes;
+    ReferenceResult reference;
+};
+
+struct Comparison {
+    DeviceInfo device;
+    std::string command;
+    int samples = 0, repeat = 0;
+    std::vector<SceneResult> scenes;
+    std::vector<RunResult> runs;
+};
+
+/// The document of apps/schema/compare.schema.json.
+nlohmann::ordered_json contract_json(const Comparison& comparison);
+/// The same with what the report shows besides.
+nlohmann::ordered_json report_json(const Comparison& comparison);
+
+/// For the cache: everything that a run or a reference holds, there and back. from_* throw nlohmann's exceptions.
+nlohmann::ordered_json run_json(const RunResult& run, bool for_report);
+RunResult run_from_json(const nlohmann::ordered_json& json);
+nlohmann::ordered_json reference_json(const ReferenceResult& reference);
+ReferenceResult reference_from_json(const nlohmann::ordered_json& json);
+
+/// Text that is safe for any JSON reader: invalid UTF-8 is replaced.
+std::string dump(const nlohmann::ordered_json& json, int indent);
+
+}  // namespace gn

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/result.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The errors of a run, in the contract's order; `flicker` needs a camera path and is not among them.
+bool in_contract(const MetricInfo& metric) { return metric.name != "flicker"; }
+
+ordered_json number(std::optional<double> value) {
+    return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+std::optional<double> optional_number(const ordered_json& json) {
+    return json.is_number() ? std::optional<double>(json.get<double>()) : std::nullopt;
+}
+
+ordered_json errors_json(const Errors& errors) {
+    ordered_json json = ordered_json::object();
+    for (const MetricInfo& metric : all_metrics()) {
+        if (in_contract(metric)) {
+            json[std::string(metric.name)] = number(errors.*metric.value);
+        }
+    }
+    return json;
+}
+
+Errors errors_from(const ordered_json& json, std::size_t samples) {
+    Errors errors;
+    errors.samples = samples;
+    for (const MetricInfo& metric : all_metrics()) {
+        if (in_contract(metric)) {
+            errors.*metric.value = optional_number(json.at(std::string(metric.name)));
+        }
+    }
+    return errors;
+}
+
+ordered_json spread_json(const Spread& spread) {
+    return {{"median", number(spread.median)}, {"min", number(spread.min)}, {"max", number(spread.max)}};
+}
+
+Spread spread_from(const ordered_json& json) {
+    return {optional_number(json.at("median")), optional_number(json.at("min")), optional_number(json.at("max"))};
+}
+
+ordered_json light_json(const LightResult& light, bool for_report) {
+    ordered_json json{{"name", light.name},
+                      {"status", light.status},
+                      {"reason", light.reason},
+                      {"samples", light.errors.samples},
+                      {"error", errors_json(light.errors)}};
+    if (for_report) {
+        json["error_map"] = light.error_map;
+    }
+    return json;
+}
+
+ordered_json times_json(const RunResult& run) {
+    ordered_json passes = ordered_json::array();
+    for (const PassResult& pass : run.passes) {
+        passes.push_back({{"name", pass.name}, {"group", pass.group}, {"median", pass.median}});
+    }
+    return {{"shadow", spread_json(run.shadow)}, {"frame", spread_json(run.frame)}, {"passes", passes}};
+}
+
+ordered_json memory_json(const RunResult& run) {
+    ordered_json resources = ordered_json::array();
+    for (const ResourceResult& resource : run.resources) {
+        resources.push_back({{"name", resource.name}, {"bytes", resource.bytes}});
+    }
+    return {{"bytes", run.bytes}, {"resources", resources}};
+}
+
+void add_report_fields(ordered_json& json, const RunResult& run) {
+    json["title"] = run.title;
+    json["citation"] = run.citation;
+    json["paragraph"] = run.paragraph;
+    json["picture"] = run.picture;
+    json["error_map"] = run.error_map;
+    json["command"] = run.command;
+    json["parameters"] = ordered_json::array();
+    for (const auto& [name, value] : run.parameters) {
+        json["parameters"].push_back({{"name", name}, {"value", value}});
+    }
+}
+
+ordered_json scene_json(const SceneResult& scene) {
+    ordered_json lights = ordered_json::array();
+    for (const LightInfo& light : scene.lights) {
+        lights.push_back({{"name", light.name}, {"kind", light.kind}, {"size", light.size}});
+    }
+    return {{"scene", scene.scene},
+            {"name", scene.name},
+            {"view", scene.view},
+            {"size", {scene.width, scene.height}},
+            {"triangles", scene.triangles},
+            {"lights", lights},
+            {"notes", scene.notes},
+            {"reference", reference_json(scene.reference)}};
+}
+
+/// All references as one: seconds add up, standard errors are averaged over the scenes that have one.
+ordered_json overall_reference(const Comparison& comparison) {
+    double seconds = 0, standard_error = 0;
+    int traced = 0;
+    for (const SceneResult& scene : comparison.scenes) {
+        seconds += scene.reference.seconds;
+        standard_error += scene.reference.standard_error;
+        traced += scene.reference.samples > 0 ? 1 : 0;
+    }
+    const auto mean = traced > 0 ? std::optional<double>(standard_error / traced) : std::nullopt;
+    return {{"samples", comparison.samples}, {"seconds", seconds}, {"standard_error", number(mean)}};
+}
+
+ordered_json document(const Comparison& comparison, bool for_report) {
+    ordered_json runs = ordered_json::array();
+    for (const RunResult& run : comparison.runs) {
+        runs.push_back(run_json(run, for_report));
+    }
+    ordered_json json{{"schema", schema_version},
+                      {"version", GNOMON_VERSION},
+                      {"device",
+                       {{"name", comparison.device.name},
+                        {"kind", comparison.device.cpu ? "cpu" : "gpu"},
+                        {"driver", comparison.device.driver}}},
+                      {"reference", overall_reference(comparison)},
+                      {"runs", runs}};
+    return json;
+}
+
+}  // namespace
+
+Spread spread_of(std::vector<double> values) {
+    if (values.empty()) {
+        return {};
+    }
+    // The median of an even count is the mean of the middle two.
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    const double median = values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+    return {median, values.front(), values.back()};
+}
+
+ordered_json run_json(const RunResult& run, bool for_report) {
+    ordered_json lights = ordered_json::array();
+    for (const LightResult& light : run.lights) {
+        lights.push_back(light_json(light, for_report));
+    }
+    ordered_json json{{"scene", run.scene},
+                      {"view", run.view},
+                      {"recipe", run.recipe},
+                      {"overrides", run.overrides},
+                      {"size", {run.width, run.height}},
+                      {"status", run.status},
+                      {"reason", run.reason},
+                      {"samples", run.errors.samples},
+                      {"error", errors_json(run.errors)},
+                      {"lights", lights},
+                      {"time_ms", times_json(run)},
+                      {"memory", memory_json(run)}};
+    if (for_report) {
+        add_report_fields(json, run);
+    }
+    return json;
+}
+
+RunResult run_from_json(const ordered_json& json) {
+    RunResult run;
+    // What was asked for, and how it ended.
+    run.scene = json.at("scene");
+    run.view = json.at("view");
+    run.recipe = json.at("recipe");
+    run.overrides = json.at("overrides");
+    run.width = json.at("size").at(0);
+    run.height = json.at("size").at(1);
+    run.status = json.at("status");
+    run.reason = json.at("reason");
+    // The figures.
+    run.errors = errors_from(json.at("error"), json.at("samples"));
+    for (const ordered_json& light : json.at("lights")) {
+        run.lights.push_back({light.at("name"), light.at("status"), light.at("reason"),
+                              errors_from(light.at("error"), light.at("samples")), light.at("error_map")});
+    }
+    run.shadow = spread_from(json.at("time_ms").at("shadow"));
+    run.frame = spread_from(json.at("time_ms").at("frame"));
+    for (const ordered_json& pass : json.at("time_ms").at("passes")) {
+        run.passes.push_back({pass.at("name"), pass.at("group"), pass.at("median")});
+    }
+    run.bytes = json.at("memory").at("bytes");
+    for (const ordered_json& resource : json.at("memory").at("resources")) {
+        run.resources.push_back({resource.at("name"), resource.at("bytes")});
+    }
+    // What the report shows besides.
+    run.title = json.at("title");
+    run.citation = json.at("citation");
+    run.paragraph = json.at("paragraph");
+    run.picture = json.at("picture");
+    run.error_map = json.at("error_map");
+    run.command = json.at("command");
+    for (const ordered_json& parameter : json.at("parameters")) {
+        run.parameters.emplace_back(parameter.at("name"), parameter.at("value"));
+    }
+    return run;
+}
+
+ordered_json reference_json(const ReferenceResult& reference) {
+    return {{"samples", reference.samples},
+            {"seconds", reference.seconds},
+            {"standard_error", reference.standard_error},
+            {"picture", reference.picture}};
+}
+
+ReferenceResult reference_from_json(const ordered_json& json) {
+    return {json.at("samples"), json.at("seconds"), json.at("standard_error"), json.at("picture")};
+}
+
+ordered_json contract_json(const Comparison& comparison) { return document(comparison, false); }
+
+ordered_json report_json(const Comparison& comparison) {
+    ordered_json json = document(comparison, true);
+    json["command"] = comparison.command;
+    json["repeat"] = comparison.repeat;
+    json["scenes"] = ordered_json::array();
+    for (const SceneResult& scene : comparison.scenes) {
+        json["scenes"].push_back(scene_json(scene));
+    }
+    json["metrics"] = ordered_json::array();
+    for (const MetricInfo& metric : all_metrics()) {
+        if (in_contract(metric)) {
+            json["metrics"].push_back({{"name", metric.name}, {"sentence", metric.sentence}});
+        }
+    }
+    return json;
+}
+
+std::string dump(const ordered_json& json, int indent) {
+    return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace gn
