@@ -42,18 +42,18 @@ template <class... Args>
 
 }  // namespace gn
 
-#define GN_CHECK(condition)                                            \
-    do {                                                               \
-        if (!(condition)) {                                            \
-            gn::check_failed(__FILE__, __LINE__, #condition, "");      \
-        }                                                              \
+#define GN_CHECK(condition)                                       \
+    do {                                                          \
+        if (!(condition)) {                                       \
+            gn::check_failed(__FILE__, __LINE__, #condition, ""); \
+        }                                                         \
     } while (false)
 
-#define GN_CHECK_EQ(a, b)                                                                          \
-    do {                                                                                           \
-        const auto& gn_a = (a);                                                                    \
-        const auto& gn_b = (b);                                                                    \
-        if (!(gn_a == gn_b)) {                                                                     \
+#define GN_CHECK_EQ(a, b)                                                                             \
+    do {                                                                                              \
+        const auto& gn_a = (a);                                                                       \
+        const auto& gn_b = (b);                                                                       \
+        if (!(gn_a == gn_b)) {                                                                        \
             gn::check_failed(__FILE__, __LINE__, #a " == " #b, fmt::format("{} and {}", gn_a, gn_b)); \
-        }                                                                                          \
+        }                                                                                             \
     } while (false)

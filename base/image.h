@@ -18,7 +18,9 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, int c, float fill = 0.0F);
-    [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    [[nodiscard]] std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
     float& at(int x, int y, int c = 0) { return values[index(x, y, c)]; }
     [[nodiscard]] float at(int x, int y, int c = 0) const { return values[index(x, y, c)]; }
 

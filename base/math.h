@@ -64,6 +64,8 @@ inline void complete_frame(vec3 n, vec3& x, vec3& y) {
     y = vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
-inline bool finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 }  // namespace gn

@@ -19,12 +19,12 @@ enum class ParamType { integer, real, boolean, choice };
 
 /// One parameter. `choice` values are stored as the int index into `choices`; `boolean` as int 0 or 1.
 struct ParamRow {
-    std::string_view name;               ///< as users type it, without the part's id
+    std::string_view name;  ///< as users type it, without the part's id
     ParamType type = ParamType::real;
-    std::size_t offset = 0;              ///< of the field in the struct
-    double min = 0, max = 0;             ///< inclusive range
-    std::string_view unit;               ///< "m", "texels", "rad", "" for plain numbers
-    std::string_view sentence;           ///< the consequence of raising it, one sentence
+    std::size_t offset = 0;     ///< of the field in the struct
+    double min = 0, max = 0;    ///< inclusive range
+    std::string_view unit;      ///< "m", "texels", "rad", "" for plain numbers
+    std::string_view sentence;  ///< the consequence of raising it, one sentence
     std::vector<std::string_view> choices{};
 };
 
@@ -79,8 +79,14 @@ std::string suggest(std::string_view wrong, std::span<const std::string_view> kn
 }  // namespace gn
 
 /// Describes one field: GN_PARAM(GnPcfParams, radius, real, 0, 64, "texels", "Wider penumbrae and more leaking.")
-#define GN_PARAM(Struct, field, kind, low, high, unit_, sentence_) \
-    gn::ParamRow { #field, gn::ParamType::kind, offsetof(Struct, field), low, high, unit_, sentence_, {} }
+#define GN_PARAM(Struct, field, kind, low, high, unit_, sentence_)                            \
+    gn::ParamRow {                                                                            \
+#field, gn::ParamType::kind, offsetof(Struct, field), low, high, unit_, sentence_, {} \
+    }
 /// The same for a field that chooses by name: GN_CHOICE(GnPcfParams, kernel, "What the taps form.", "2x2", "3x3")
-#define GN_CHOICE(Struct, field, sentence_, ...) \
-    gn::ParamRow { #field, gn::ParamType::choice, offsetof(Struct, field), 0, 0, "", sentence_, {__VA_ARGS__} }
+#define GN_CHOICE(Struct, field, sentence_, ...)                                       \
+    gn::ParamRow {                                                                     \
+#field, gn::ParamType::choice, offsetof(Struct, field), 0, 0, "", sentence_, { \
+            __VA_ARGS__                                                                \
+        }                                                                              \
+    }

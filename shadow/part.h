@@ -21,9 +21,14 @@ struct LightKinds {
 };
 inline constexpr LightKinds all_lights{true, true, true, true};
 
+/// The reach of a kernel: the larger of both counts.
+struct Guard {
+    float texels = 0, metres = 0;
+};
+
 class Part {
   public:
-    std::string_view id;        ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
+    std::string_view id;  ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
     Stage stage = Stage::lookup;
     std::string_view title;     ///< "Percentage-closer filtering"
     std::string_view citation;  ///< key in docs/references.bib
@@ -32,8 +37,8 @@ class Part {
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
     ParamTable params;
-    std::string_view params_type;   ///< GLSL and C++ name of the struct: "GnPcfParams"; "" when there are none
-    std::string_view glsl;          ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none
+    std::string_view params_type;  ///< GLSL and C++ name of the struct: "GnPcfParams"; "" when there are none
+    std::string_view glsl;         ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none
 
     // Exactly one of these is set, by stage.
     LightViews (*place)(const FrameInput&, const Recipe&) = nullptr;
@@ -42,8 +47,10 @@ class Part {
     Visibility (*add_lookup)(const FrameInput&, const Recipe&, const LightViews&, const ShadowMap&) = nullptr;
     Visibility (*add_direct)(const FrameInput&, const Recipe&) = nullptr;
     Visibility (*add_visibility)(const FrameInput&, const Recipe&, const Visibility&) = nullptr;
-    /// Lookups: guard band in texels around each view's rectangle that the kernel may reach into.
-    float (*guard_texels)(const Recipe&, const GnLight&) = nullptr;
+    /// Lookups and maps: how far beyond a receiver their kernel reads; placements widen their views by it.
+    Guard (*guard)(const Recipe&) = nullptr;
+    /// Lookups and maps: GLSL that must stand before the part's own (generated tables); "" when there is none.
+    std::string (*prologue)(const Recipe&) = nullptr;
     /// A combination it cannot do: the sentence why, or "". Asked before anything is drawn.
     std::string (*refuses)(const Scene&, const Light&, const Recipe&) = nullptr;
     /// Tap counts and the like that become specialization constants of the resolve pass.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a lookup is given: the receiver, projected into one light view, with the bias applied.
+// What a lookup is given: the receiver, and the receiver seen in one light view with the bias applied.
+// Compiles as GLSL and as C++ (the tests check its laws on the CPU).
 //
-// Space suffixes: _ws world, _cs the light's clip space, _ts texture space of the map's layer ([0,1]^2).
+// Space suffixes: _ws world, _cs the light's clip space, _ts texture space of the map's layer ([0,1]^2), _ss pixels.
+// Based on: Isidoro. Shadow Mapping: GPU-based Tips and Techniques. GDC 2006. [Isi06]
+// Departs from it: the plane's depth is exact under any projection, not a constant gradient.
 #ifndef GN_SHADOW_RECEIVER_GLSL
 #define GN_SHADOW_RECEIVER_GLSL
 
@@ -10,29 +13,127 @@
 #include "shadow/light_view.h"
 #include "shadow/scene/light.h"
 
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
 // A view sample as every stage sees it.
 struct GnReceiver {
     vec3 p_ws;
-    vec3 n_ws;        // geometric normal, towards the camera
-    vec3 to_light;    // unit, towards the light's centre
-    float view_depth; // metres along the camera's axis
-    vec2 p_ss;        // pixel centre, in pixels
+    vec3 n_ws;         // geometric normal, towards the camera, unit
+    float view_depth;  // metres along the camera's axis
+    vec2 p_ss;         // pixel centre, in pixels
+    vec3 ddx_ws;       // the receiver's change from one pixel to the next, along its plane: to the right
+    vec3 ddy_ws;       // and downwards; metres
 };
 
-// The receiver in one light view. `plane` gives the depth of the receiver's plane at any point of the map:
-// depth(uv) = dot(plane_num, vec3(uv, 1)) / dot(plane_den, vec3(uv, 1)).
+// The receiver in one light view, moved by the bias.
 struct GnProjected {
-    vec2 uv_ts;       // in the layer
-    float depth;      // linear depth of the (biased) receiver
+    vec2 uv_ts;             // in the layer
+    float depth;            // linear depth in [0,1], moved towards the light by the bias
     int layer;
-    vec3 plane_num, plane_den;
-    vec2 texel_ts;    // one texel in ts: 1 / resolution
-    vec2 metres_per_ts; // world length, at the receiver and across the light's rays, of a unit step in u and in v
-    float texel_ws;   // world size of a texel at the receiver, metres (the larger of both directions)
-    vec4 bounds_ts;   // min.xy, max.zw: the view's rectangle
+    vec2 plane_slope;       // depth of the receiver's plane at uv + d: depth + dot(slope, d) / (1 - dot(fall, d))
+    vec2 plane_fall;
+    vec3 du_ws;             // gradient of uv_ts over the world, per metre
+    vec3 dv_ws;
+    float texel_ts;         // 1 / resolution
+    float texel_ws;         // side of a texel at the receiver, across the rays, metres (the larger of both axes)
+    vec4 bounds_ts;         // min.xy, max.zw of the view's rectangle
     float metres_per_depth;
-    int inside;       // 1 when uv_ts lies in the view's rectangle and before its eye
+    bool inside;            // false: the view does not see the receiver
 };
 
+// A choice of views for a receiver: V = mix(V(first), V(second), weight); second is -1 where one view suffices.
+struct GnChoice {
+    int first;
+    int second;
+    float weight;
+};
 
+// What a placement computes for its choice function, packed as it likes.
+struct GnPlacementData {
+    vec4 values[16];
+};
+
+// Smallest depth difference that is not rounding: the rasterizer interpolates a 24-bit significand.
+const float gn_depth_epsilon = 4.0f / 16777216.0f;
+
+// Unit direction from p_ws to the view's eye.
+GN_FN vec3 gn_to_eye(GnLightView view, vec3 p_ws) {
+    return view.eye_ws.w > 0.5f ? normalize(vec3(view.eye_ws) - p_ws) : vec3(view.eye_ws);
+}
+
+GN_FN vec3 gn_row(mat4 m, int i) { return vec3(m[0][i], m[1][i], m[2][i]); }
+
+// Map texels and bias are measured where the receiver is; then the receiver is moved and projected.
+GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias) {
+    GnProjected result;
+    vec2 scale_ts = 0.5f * vec2(view.rect_ts.z, view.rect_ts.w);
+    vec3 row_w = gn_row(view.cs_from_ws, 3);
+
+    // Size of a texel at the receiver: the gradient of uv over the world, inverted.
+    vec4 p_cs = view.cs_from_ws * vec4(receiver.p_ws, 1.0f);
+    float inverse_w = 1.0f / p_cs.w;
+    result.du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
+    result.dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
+    result.texel_ts = 1.0f / view.resolution;
+    result.texel_ws = result.texel_ts / min(length(result.du_ws), length(result.dv_ws));
+
+    // Move the receiver: towards the light, and along its normal where the light grazes it.
+    vec3 to_eye = gn_to_eye(view, receiver.p_ws);
+    float cosine = clamp(dot(receiver.n_ws, to_eye), 0.0f, 1.0f);
+    float sine = sqrt(max(0.0f, 1.0f - cosine * cosine));
+    float tangent = cosine * bias.slope_max > sine ? sine / cosine : bias.slope_max;
+    float towards_light = (bias.constant + bias.slope * tangent) * result.texel_ws + bias.constant_world;
+    float along_normal = (bias.normal * result.texel_ws + bias.normal_world) * sine;
+    vec3 p_ws = receiver.p_ws + to_eye * towards_light + receiver.n_ws * along_normal;
+
+    // Project.
+    p_cs = view.cs_from_ws * vec4(p_ws, 1.0f);
+    inverse_w = 1.0f / p_cs.w;
+    vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
+    result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
+    result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
+    result.layer = view.layer;
+    result.metres_per_depth = view.metres_per_depth;
+    result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
+    result.inside = p_cs.w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
+
+    // The receiver's plane: displacements e_u, e_v within it that move uv by one, to first order; the division in
+    // gn_plane_depth makes them exact. Solve [gx gy n]^T d = (du, dv, 0) (w + row_w d) for d.
+    vec3 gx = (gn_row(view.cs_from_ws, 0) - p_ndc.x * row_w) * scale_ts.x;
+    vec3 gy = (gn_row(view.cs_from_ws, 1) - p_ndc.y * row_w) * scale_ts.y;
+    float determinant = dot(gx, cross(gy, receiver.n_ws));
+    if (abs(determinant) > 1.0e-4f * length(gx) * length(gy)) {
+        vec3 e_u = cross(gy, receiver.n_ws) / determinant;
+        vec3 e_v = cross(receiver.n_ws, gx) / determinant;
+        vec3 depth_axis = vec3(view.depth_from_ws);
+        result.plane_slope = vec2(dot(depth_axis, e_u), dot(depth_axis, e_v)) * p_cs.w;
+        result.plane_fall = vec2(dot(row_w, e_u), dot(row_w, e_v));
+    } else {
+        result.plane_slope = vec2(0.0f);
+        result.plane_fall = vec2(0.0f);
+    }
+    return result;
+}
+
+// Linear depth of the receiver's plane at uv_ts, or of the receiver itself where bias.receiver_plane is off.
+GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
+    if (bias.receiver_plane == 0) {
+        return projected.depth;
+    }
+    vec2 d_ts = uv_ts - projected.uv_ts;
+    float divisor = 1.0f - dot(projected.plane_fall, d_ts);
+    float offset = dot(projected.plane_slope, d_ts);
+    return divisor > 1.0e-3f ? projected.depth + offset / divisor : projected.depth;
+}
+
+// A length across the rays at the receiver, in texels of the map's u axis and v axis.
+GN_FN vec2 gn_texels(GnProjected projected, float metres) {
+    return vec2(length(projected.du_ws), length(projected.dv_ws)) * (metres / projected.texel_ts);
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#endif
 #endif

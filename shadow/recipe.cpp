@@ -248,11 +248,7 @@ const Part& Recipe::placement_for(const GnLight& light) const {
     if (placement != nullptr) {
         return *placement;
     }
-    switch (light.kind) {
-        case GN_LIGHT_POINT: return find_part(Stage::placement, "cube");
-        case GN_LIGHT_DIRECTIONAL: return find_part(Stage::placement, "fit");
-        default: return find_part(Stage::placement, "single");
-    }
+    return find_part(Stage::placement, light.kind == GN_LIGHT_POINT ? "cube" : "fit");
 }
 
 Recipe load_recipe(const std::string& name_and_overrides) {

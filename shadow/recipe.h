@@ -14,14 +14,14 @@ struct Recipe {
     std::string name;       ///< "pcf"
     std::string overrides;  ///< "resolution=2048,pcf.taps=25", as given; "" when none
     std::string title, paragraph, citation;
-    const Part* placement = nullptr;  ///< null: chosen by light kind (fit, single or cube)
+    const Part* placement = nullptr;  ///< null: chosen by light kind (fit or cube)
     const Part* map = nullptr;
     const Part* lookup = nullptr;
-    const Part* direct = nullptr;     ///< set instead of the three above; all null: no shadows, V = 1
-    const Part* visibility = nullptr; ///< optional
-    int resolution = 1024;            ///< texels along a side of the map; per view of multi-view placements
+    const Part* direct = nullptr;      ///< set instead of the three above; all null: no shadows, V = 1
+    const Part* visibility = nullptr;  ///< optional
+    int resolution = 1024;             ///< texels along a side of the map; per view of multi-view placements
     GnBias bias;
-    std::string casters = "all";      ///< which faces are drawn into maps: all, front, back (later midpoint, dual, ids)
+    std::string casters = "all";  ///< which faces are drawn into maps: all, front, back (later midpoint, dual, ids)
     std::map<std::string, ParamBlock, std::less<>> params;  ///< by part id, for every part there is
 
     /// The parameters of a part in this recipe (defaults where nothing was set).
@@ -32,7 +32,7 @@ struct Recipe {
         return found->second.template as<Params>();
     }
     [[nodiscard]] const ParamBlock& block(const Part& part) const;
-    /// The placement for a light: as named, else cube for point lights, single for spots and rectangles, fit for the sun.
+    /// The placement for a light: as named, else cube for point lights and fit for all others.
     [[nodiscard]] const Part& placement_for(const GnLight& light) const;
 };
 

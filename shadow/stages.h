@@ -24,10 +24,10 @@ inline constexpr std::array<std::string_view, 5> stage_names{"placement", "map",
 /// The scene on the GPU. Made once by upload_scene; imported into each frame's graph.
 struct SceneGpu {
     const Scene* scene = nullptr;
-    Buffer positions;  ///< vec3 per vertex (scalar layout, 12 bytes), world space
-    Buffer normals;    ///< vec3 per vertex
-    Buffer uvs;        ///< vec2 per vertex
-    Buffer indices;    ///< uvec3 per triangle
+    Buffer positions;                 ///< vec3 per vertex (scalar layout, 12 bytes), world space
+    Buffer normals;                   ///< vec3 per vertex
+    Buffer uvs;                       ///< vec2 per vertex
+    Buffer indices;                   ///< uvec3 per triangle
     std::vector<Texture2D> textures;  ///< as Scene::textures, RGBA8 sRGB, mipmapped; index 0 of an empty scene is white
     Texture2D white;
 };
@@ -40,12 +40,12 @@ struct SceneHandles {
     TextureHandle white;
 };
 
-/// The camera's constants for shaders (std140 and scalar agree).
+/// The camera's constants for shaders (shadow/view/view.glsl has the same struct).
 struct GnViewConstants {
-    mat4 cs_from_ws{1};     ///< reversed depth: near 1, far 0
+    mat4 cs_from_ws{1};  ///< reversed depth: near 1, far 0
     mat4 ws_from_cs{1};
-    vec4 eye_ws{0};         ///< xyz
-    uvec4 size{0};          ///< width, height, 0, 0
+    vec4 eye_ws{0};  ///< xyz
+    uvec4 size{0};   ///< width, height, 0, 0
 };
 
 /// One G-buffer: what each pixel of the view sees. Where no surface is seen, position.w = 0.
@@ -53,11 +53,12 @@ struct ViewSamples {
     uint width = 0, height = 0;
     Camera camera;
     GnViewConstants constants;
-    TextureHandle position;        ///< RGBA32F: p_ws, 1 (surface) or 0 (none)
-    TextureHandle normal;          ///< RGBA32F: geometric normal n_ws towards the camera, w = distance along the view axis
-    TextureHandle shading_normal;  ///< RGBA16F: interpolated normal, towards the camera; w = object id (for ids bias) as float
+    TextureHandle position;  ///< RGBA32F: p_ws, 1 (surface) or 0 (none)
+    TextureHandle normal;    ///< RGBA32F: geometric normal n_ws towards the camera, w = distance along the view axis
+    TextureHandle shading_normal;  ///< RGBA16F: interpolated normal, towards the camera
     TextureHandle albedo;          ///< RGBA8 sRGB: base colour
-    TextureHandle material;        ///< RGBA8: roughness, metallic, 0, 0
+    TextureHandle material;        ///< RGBA8: roughness, metallic, object id (low byte, high byte)
+    TextureHandle emission;        ///< RGBA16F: emitted radiance, cd/m^2
     TextureHandle depth;           ///< D32_SFLOAT_S8: reversed depth of the camera; stencil is free for direct parts
 };
 
@@ -89,17 +90,23 @@ struct LightViews {
     std::vector<GnLightView> views;
     std::uint32_t resolution = 1024;  ///< texels along a side of every layer
     std::uint32_t layers = 1;
-    const Part* part = nullptr;       ///< its GLSL chooses the view of a receiver
-    std::vector<std::byte> glsl_params;  ///< bytes of the struct the part's GLSL choice function takes
-    BufferHandle buffer;              ///< GnLightView[], on the GPU; made by frame.cpp unless the placement set it
-    std::vector<std::vector<std::uint32_t>> casters;  ///< per view: indices into Scene::objects that may cast; empty: all
+    const Part* part = nullptr;   ///< its GLSL chooses the view of a receiver
+    std::array<vec4, 16> data{};  ///< what the part's GLSL choice function is given (GnPlacementData)
+    BufferHandle buffer;          ///< GnLightView[] where the placement makes its views on the GPU; else invalid
+    BufferHandle data_buffer;     ///< GnPlacementData likewise
+    std::vector<std::vector<std::uint32_t>>
+        casters;  ///< per view: indices into Scene::objects that may cast; empty: all
 };
+
+/// Declares and sets the blocks `Views` (GnLightView[]) and `Placement` (GnPlacementData) of a pass.
+void declare_views(PassBuilder& pass, const LightViews& views);
+void set_views(Recorder& r, const LightViews& views);
 
 /// map: what a texel stores.
 struct ShadowMap {
-    TextureHandle texture;     ///< 2D array, one layer a view (or as the part's GLSL reads it)
-    TextureHandle extra;       ///< a second texture where the part needs one, else invalid
-    SamplerDesc sampler;       ///< how the texture is read when filtered
+    TextureHandle texture;  ///< 2D array, one layer a view (or as the part's GLSL reads it)
+    TextureHandle extra;    ///< a second texture where the part needs one, else invalid
+    SamplerDesc sampler;    ///< how the texture is read when filtered
     const Part* part = nullptr;
 };
 

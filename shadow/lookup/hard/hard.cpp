@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Hard shadows: one comparison.
+//
+// Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
+#include "shadow/part.h"
+
+namespace gn::parts {
+
+const Part& lookup_hard() {
+    static const Part part = [] {
+        Part p;
+        p.id = "hard";
+        p.stage = Stage::lookup;
+        p.title = "One comparison";
+        p.citation = "Wil78";
+        p.needs = "depth";
+        p.glsl = "shadow/lookup/hard/hard.glsl";
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace gn::parts

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// One comparison with the texel the receiver falls into.
+// Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
+#ifndef GN_SHADOW_LOOKUP_HARD_GLSL
+#define GN_SHADOW_LOOKUP_HARD_GLSL
+
+#include "shadow/receiver.glsl"
+
+#ifndef __cplusplus
+float gn_hard_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
+    // Compare where the texel was sampled: at its centre.
+    ivec2 texel = ivec2(floor(projected.uv_ts / projected.texel_ts));
+    vec2 centre_ts = (vec2(texel) + 0.5) * projected.texel_ts;
+    float occluder = texelFetch(map, ivec3(texel, projected.layer), 0).r;
+    return gn_depth_at(projected, centre_ts, bias) <= occluder ? 1.0 : 0.0;
+}
+#endif
+
+#endif

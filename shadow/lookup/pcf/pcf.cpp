@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer filtering over any placement, grids by gathers and discs by single texels.
+//
+// Based on: Reeves, Salesin, Cook. Rendering Antialiased Shadows with Depth Maps. SIGGRAPH 1987. [RSC87]
+#include "shadow/lookup/pcf/pcf.h"
+
+#include "shadow/lookup/pcf/pcf.glsl"
+#include "shadow/lookup/poisson.h"
+#include "shadow/part.h"
+#include "shadow/recipe.h"
+
+namespace gn {
+namespace {
+
+bool is_grid(const GnPcfParams& params) {
+    return params.kernel <= GN_PCF_GAUSSIAN;
+}
+
+Guard guard(const Recipe& recipe) {
+    const auto params = recipe.of<GnPcfParams>("pcf");
+    if (is_grid(params)) {
+        const int size = glsl::gn_pcf_size(params.kernel, params.size);
+        return {.texels = 0.5F * static_cast<float>(glsl::gn_pcf_footprint(params.kernel, size)) + 1.0F};
+    }
+    return params.radius_world > 0 ? Guard{.texels = 1, .metres = params.radius_world}
+                                   : Guard{.texels = params.radius + 1};
+}
+
+/// Fixes the loops' counts and brings the generated set of taps.
+std::string prologue(const Recipe& recipe) {
+    const auto params = recipe.of<GnPcfParams>("pcf");
+    if (is_grid(params)) {
+        const int size = glsl::gn_pcf_size(params.kernel, params.size);
+        return fmt::format("#define GN_PCF_FOOTPRINT {}\n", glsl::gn_pcf_footprint(params.kernel, size));
+    }
+    std::string text = fmt::format("#define GN_PCF_TAPS {}\n", params.taps);
+    if (params.kernel != GN_PCF_VOGEL) {
+        text += glsl_array(poisson_disc(params.taps, static_cast<unsigned>(params.seed)), "gn_pcf_points");
+        text += "#define GN_PCF_POINT(i) gn_pcf_points[i]\n";
+    }
+    return text;
+}
+
+ParamTable rows() {
+    return param_table<GnPcfParams>({
+        GN_CHOICE(
+            GnPcfParams, kernel,
+            "What the taps form: grids are exact box or Gaussian filters of the map, discs trade banding for noise.",
+            "2x2", "3x3", "nxn", "bilinear", "bilinear-nxn", "gaussian", "poisson", "rotated-poisson", "vogel"),
+        GN_PARAM(GnPcfParams, size, integer, 1, 31, "texels",
+                 "Side of the n x n grids: wider edges, cost grows with its square."),
+        GN_PARAM(GnPcfParams, taps, integer, 1, 128, "", "Taps of disc kernels: less noise, cost grows in proportion."),
+        GN_PARAM(GnPcfParams, radius, real, 0, 64, "texels", "Radius of disc kernels: softer edges, lost detail."),
+        GN_PARAM(GnPcfParams, radius_world, real, 0, 100, "m",
+                 "Radius of disc kernels on the receiver; above zero it replaces radius and keeps edges equally soft "
+                 "everywhere."),
+        GN_PARAM(GnPcfParams, early_out, boolean, 0, 1, "",
+                 "Stops after 8 taps that agree: faster, but specks smaller than the gaps between them are lost."),
+        GN_PARAM(GnPcfParams, seed, integer, 0, 65535, "", "Another Poisson set; nothing else changes."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_pcf() {
+    static const Part part = [] {
+        Part p;
+        p.id = "pcf";
+        p.stage = Stage::lookup;
+        p.title = "Percentage-closer filtering";
+        p.citation = "RSC87";
+        p.needs = "depth";
+        p.params = rows();
+        p.params_type = "GnPcfParams";
+        p.glsl = "shadow/lookup/pcf/pcf.glsl";
+        p.guard = guard;
+        p.prologue = prologue;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

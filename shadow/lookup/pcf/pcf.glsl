@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer filtering: compare first, then average.
+// Based on: Reeves, Salesin, Cook. Rendering Antialiased Shadows with Depth Maps. SIGGRAPH 1987. [RSC87]
+// Departs from it: grid kernels are separable weights over gathered texels; disc kernels use fixed sets of taps.
+#ifndef GN_SHADOW_LOOKUP_PCF_GLSL
+#define GN_SHADOW_LOOKUP_PCF_GLSL
+
+#include "shadow/lookup/pcf/pcf.h"
+#include "shadow/receiver.glsl"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// Size of a grid kernel: the named ones have their own, the n x n ones take the parameter.
+GN_FN int gn_pcf_size(int kernel, int size) {
+    if (kernel == GN_PCF_2X2) {
+        return 2;
+    }
+    return kernel == GN_PCF_3X3 ? 3 : kernel == GN_PCF_BILINEAR ? 1 : size;
+}
+
+// Whether a grid kernel weighs whole texels equally; the others follow the receiver continuously.
+GN_FN bool gn_pcf_snapped(int kernel) { return kernel <= GN_PCF_NXN; }
+
+// Texels along one side of a grid kernel's footprint, rounded up to whole gathers of 2 x 2.
+GN_FN int gn_pcf_footprint(int kernel, int size) {
+    int texels = gn_pcf_snapped(kernel) ? size : size + 1;
+    return texels + texels % 2;
+}
+
+// First texel of the footprint along one axis, for a receiver at `t` (in texels; texel i spans [i, i+1)).
+GN_FN int gn_pcf_first(int kernel, int size, float t) {
+    if (gn_pcf_snapped(kernel)) {
+        // Odd sizes centre on the receiver's texel, even ones on the nearest corner.
+        return size % 2 == 1 ? int(floor(t)) - size / 2 : int(floor(t + 0.5f)) - size / 2;
+    }
+    // size bilinear taps one texel apart, centred on the receiver.
+    return int(floor(t - 0.5f * float(size)));
+}
+
+// Weight of footprint texel i (0 is gn_pcf_first) along one axis; the weights of an axis sum to one.
+GN_FN float gn_pcf_weight(int kernel, int size, float t, int i) {
+    if (gn_pcf_snapped(kernel)) {
+        return i < size ? 1.0f / float(size) : 0.0f;
+    }
+    // A box of `size` texels around t, intersected with texel i: what `size` bilinear taps average.
+    float start = t - 0.5f * float(size);
+    float position = floor(start) + float(i);
+    float covered = min(position + 1.0f, start + float(size)) - max(position, start);
+    return clamp(covered, 0.0f, 1.0f) / float(size);
+}
+
+// Gaussian of sigma = size / 3 over the same texels, not normalized. [Cas13] packs the like into bilinear fetches.
+GN_FN float gn_pcf_gaussian(int size, float t, int i) {
+    float position = floor(t - 0.5f * float(size)) + float(i) + 0.5f;
+    float sigma = float(size) / 3.0f;
+    float x = (position - t) / sigma;
+    return i <= size ? exp(-0.5f * x * x) : 0.0f;
+}
+
+// Point i of n on a disc: the golden-angle spiral. [Vog79]
+GN_FN vec2 gn_pcf_vogel(int i, int n, float phase) {
+    float r = sqrt((float(i) + 0.5f) / float(n));
+    float angle = float(i) * 2.39996323f + phase;
+    return r * vec2(cos(angle), sin(angle));
+}
+
+// An angle per pixel from interleaved gradient noise. [Jim14]
+GN_FN float gn_pcf_angle(vec2 p_ss) {
+    float inner = 0.06711056f * p_ss.x + 0.00583715f * p_ss.y;
+    inner = inner - floor(inner);
+    float noise = 52.9829189f * inner;
+    return 6.28318531f * (noise - floor(noise));
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+// The host may define GN_PCF_POINT(i): tap i of a generated Poisson set on the unit disc. Without it the spiral serves.
+#ifndef GN_PCF_POINT
+#define GN_PCF_POINT(i) gn_pcf_vogel(i, params.taps, 0.0)
+#endif
+// The host may fix the loops' counts at pipeline creation.
+#ifndef GN_PCF_FOOTPRINT
+#define GN_PCF_FOOTPRINT gn_pcf_footprint(params.kernel, params.size)
+#endif
+#ifndef GN_PCF_TAPS
+#define GN_PCF_TAPS params.taps
+#endif
+
+float gn_pcf_lit(GnProjected projected, GnBias bias, vec2 centre_ts, float occluder) {
+    return gn_depth_at(projected, centre_ts, bias) <= occluder ? 1.0 : 0.0;
+}
+
+float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
+    return params.kernel == GN_PCF_GAUSSIAN ? gn_pcf_gaussian(params.size, t, i)
+                                            : gn_pcf_weight(params.kernel, params.size, t, i);
+}
+
+// Gather the footprint in blocks of 2 x 2 texels and weigh each comparison by its row and column.
+float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
+    vec2 t = projected.uv_ts / projected.texel_ts;
+    ivec2 first = ivec2(gn_pcf_first(params.kernel, params.size, t.x), gn_pcf_first(params.kernel, params.size, t.y));
+    float sum = 0.0;
+    float total = 0.0;
+    for (int y = 0; y < GN_PCF_FOOTPRINT; y += 2) {
+        vec2 wy = vec2(gn_pcf_axis_weight(params, t.y, y), gn_pcf_axis_weight(params, t.y, y + 1));
+        for (int x = 0; x < GN_PCF_FOOTPRINT; x += 2) {
+            vec2 wx = vec2(gn_pcf_axis_weight(params, t.x, x), gn_pcf_axis_weight(params, t.x, x + 1));
+            // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
+            vec2 corner_ts = vec2(first + ivec2(x, y) + 1) * projected.texel_ts;
+            vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
+            vec2 h = vec2(0.5, -0.5) * projected.texel_ts;
+            vec4 lit = vec4(gn_pcf_lit(projected, bias, corner_ts + h.yx, occluder.x),
+                            gn_pcf_lit(projected, bias, corner_ts + h.xx, occluder.y),
+                            gn_pcf_lit(projected, bias, corner_ts + h.xy, occluder.z),
+                            gn_pcf_lit(projected, bias, corner_ts + h.yy, occluder.w));
+            vec4 weight = vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);
+            sum += dot(lit, weight);
+            total += weight.x + weight.y + weight.z + weight.w;
+        }
+    }
+    return sum / total;
+}
+
+// One tap of a disc kernel: the texel it falls into, compared at that texel's centre.
+float gn_pcf_tap(GnProjected projected, GnBias bias, sampler2DArray map, vec2 tap_ts) {
+    tap_ts = clamp(tap_ts, projected.bounds_ts.xy, projected.bounds_ts.zw - 0.5 * projected.texel_ts);
+    ivec2 texel = ivec2(floor(tap_ts / projected.texel_ts));
+    float occluder = texelFetch(map, ivec3(texel, projected.layer), 0).r;
+    return gn_pcf_lit(projected, bias, (vec2(texel) + 0.5) * projected.texel_ts, occluder);
+}
+
+vec2 gn_pcf_disc(GnPcfParams params, int i, float angle) {
+    if (params.kernel == GN_PCF_VOGEL) {
+        return gn_pcf_vogel(i, params.taps, angle);
+    }
+    vec2 p = GN_PCF_POINT(i);
+    float c = cos(angle);
+    float s = sin(angle);
+    return params.kernel == GN_PCF_ROTATED_POISSON ? vec2(c * p.x - s * p.y, s * p.x + c * p.y) : p;
+}
+
+float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
+    vec2 radius_ts = vec2(params.radius * projected.texel_ts);
+    if (params.radius_world > 0.0) {
+        radius_ts = gn_texels(projected, params.radius_world) * projected.texel_ts;
+    }
+    float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
+
+    // Two steps: where the first taps agree, the rest would. (Uralsky's early out, [EASW09] 4.2)
+    int probe = params.early_out != 0 ? min(8, GN_PCF_TAPS) : GN_PCF_TAPS;
+    float sum = 0.0;
+    int i = 0;
+    for (; i < probe; ++i) {
+        sum += gn_pcf_tap(projected, bias, map, projected.uv_ts + radius_ts * gn_pcf_disc(params, i, angle));
+    }
+    if (i < GN_PCF_TAPS && sum > 0.0 && sum < float(probe)) {
+        for (; i < GN_PCF_TAPS; ++i) {
+            sum += gn_pcf_tap(projected, bias, map, projected.uv_ts + radius_ts * gn_pcf_disc(params, i, angle));
+        }
+    }
+    return sum / float(i);
+}
+
+float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
+                        GnPcfParams params) {
+    params.size = gn_pcf_size(params.kernel, params.size);
+    return params.kernel <= GN_PCF_GAUSSIAN ? gn_pcf_grid(projected, bias, map, params)
+                                            : gn_pcf_discs(receiver, projected, bias, map, params);
+}
+#endif
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Based on: McCool, Fiume. Hierarchical Poisson Disk Sampling Distributions. Graphics Interface 1992. [MF92]
+#include "shadow/lookup/poisson.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+namespace gn {
+
+PoissonSet poisson_disc(int count, unsigned seed) {
+    std::mt19937 generator(seed);
+    const auto uniform = [&] { return static_cast<float>(generator()) * (2.0F / 4294967296.0F) - 1.0F; };
+
+    // Throw darts; after too many misses relax the spacing a little, keeping what has been placed.
+    PoissonSet set;
+    set.spacing = 2.0F / std::sqrt(static_cast<float>(count));
+    int misses = 0;
+    while (static_cast<int>(set.points.size()) < count) {
+        const vec2 dart(uniform(), uniform());
+        const bool inside = glm::dot(dart, dart) <= 1.0F;
+        const bool free = std::all_of(set.points.begin(), set.points.end(),
+                                      [&](vec2 p) { return glm::distance(p, dart) >= set.spacing; });
+        if (inside && free) {
+            set.points.push_back(dart);
+            misses = 0;
+        } else if (inside && ++misses > 200) {
+            set.spacing *= 0.99F;
+            misses = 0;
+        }
+    }
+
+    // Spread the order: probing the first taps alone must see the whole disc. Each next point is the one farthest from
+    // those before it.
+    for (std::size_t i = 1; i < set.points.size(); ++i) {
+        const auto gap = [&](vec2 p) {
+            float nearest = 4;
+            for (std::size_t j = 0; j < i; ++j) {
+                nearest = std::min(nearest, glm::distance(p, set.points[j]));
+            }
+            return nearest;
+        };
+        const auto best = std::max_element(set.points.begin() + static_cast<std::ptrdiff_t>(i), set.points.end(),
+                                           [&](vec2 a, vec2 b) { return gap(a) < gap(b); });
+        std::iter_swap(set.points.begin() + static_cast<std::ptrdiff_t>(i), best);
+    }
+    return set;
+}
+
+std::string glsl_array(const PoissonSet& set, const std::string& name) {
+    std::string text = fmt::format("const vec2 {}[{}] = vec2[](", name, set.points.size());
+    for (std::size_t i = 0; i < set.points.size(); ++i) {
+        text += fmt::format("{}vec2({:.8f}, {:.8f})", i == 0 ? "" : ", ", set.points[i].x, set.points[i].y);
+    }
+    return text + ");\n";
+}
+
+}  // namespace gn

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// One map focused on the potential shadow receivers PSR = L ∩ V ∩ S. Near and far come from the same body; casters
+// before the near plane are kept by depth clamping.
+//
+// Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
+#include "shadow/placement/cube/cube.h"
+
+namespace gn {
+namespace {
+
+LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
+    const GnLight& light = input.light().shape;
+    LightViews views;
+    views.resolution = static_cast<std::uint32_t>(recipe.resolution);
+    ConvexBody body = potential_receivers(input);
+    if (body.empty()) {
+        // Nothing can receive: any view will do.
+        body = body_of(Box{vec3(-1), vec3(1)});
+    }
+    if (light.kind == GN_LIGHT_DIRECTIONAL) {
+        views.views = {fit_orthographic(body, light, recipe.resolution, guard_of(recipe))};
+        return views;
+    }
+    const Fitted fitted = fit_perspective(body, light, input.scene.bounds_ws, recipe.resolution, guard_of(recipe));
+    if (fitted.valid) {
+        views.views = {fitted.view};
+    } else {
+        // The receivers surround the light.
+        add_cube_views(views, input, recipe);
+    }
+    return views;
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& placement_fit() {
+    static const Part part = [] {
+        Part p;
+        p.id = "fit";
+        p.stage = Stage::placement;
+        p.title = "One map focused on the potential shadow receivers";
+        p.citation = "BAS02b";
+        p.glsl = "shadow/placement/fit/fit.glsl";
+        p.place = place_fit;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Light views around convex bodies: orthographic for the sun, perspective for lights with a position.
+//
+// Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
+#include "shadow/placement/receivers.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+struct Rectangle {
+    dvec2 axis{1, 0};  ///< of its first side
+    dvec2 min{0}, max{0};
+    [[nodiscard]] double area() const { return (max.x - min.x) * (max.y - min.y); }
+};
+
+double cross2(dvec2 a, dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Andrew's monotone chain.
+std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
+    std::sort(points.begin(), points.end(), [](dvec2 a, dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<dvec2> hull;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t start = hull.size();
+        for (const dvec2 p : points) {
+            while (hull.size() >= start + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) {
+                hull.pop_back();
+            }
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+Rectangle bounds_along(const std::vector<dvec2>& points, dvec2 axis) {
+    Rectangle r{axis, dvec2(1e300), dvec2(-1e300)};
+    for (const dvec2 p : points) {
+        const dvec2 q(glm::dot(p, axis), cross2(axis, p));
+        r.min = glm::min(r.min, q);
+        r.max = glm::max(r.max, q);
+    }
+    return r;
+}
+
+/// The rectangle of least area has a side along an edge of the hull (Freeman and Shapira 1975).
+Rectangle least_rectangle(const std::vector<dvec2>& points) {
+    const std::vector<dvec2> hull = convex_hull(points);
+    Rectangle best = bounds_along(points, {1, 0});
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+        if (glm::length(edge) > 0) {
+            const Rectangle r = bounds_along(points, glm::normalize(edge));
+            best = r.area() < best.area() * (1 - 1e-9) ? r : best;
+        }
+    }
+    return best;
+}
+
+/// Widens an interval so that a kernel of the guard's reach stays inside the map.
+void widen(double& low, double& high, Guard guard, double metres, int resolution) {
+    const double share = std::min(0.4, static_cast<double>(guard.texels) / resolution);
+    const double size = std::max(high - low, 1e-6);
+    const double margin = (size * share + metres) / (1 - 2 * share);
+    low -= margin;
+    high += margin;
+}
+
+/// Rows of a matrix to column-major glm.
+mat4 from_rows(const std::array<dvec4, 4>& rows) {
+    return mat4(glm::transpose(dmat4(rows[0], rows[1], rows[2], rows[3])));
+}
+
+void finish_view(GnLightView& view, const std::array<dvec4, 4>& rows, int resolution) {
+    view.cs_from_ws = from_rows(rows);
+    view.ws_from_cs = mat4(glm::inverse(glm::transpose(dmat4(rows[0], rows[1], rows[2], rows[3]))));
+    view.resolution = static_cast<float>(resolution);
+}
+
+}  // namespace
+
+GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
+    const dvec3 axis(vec3(light.direction_ws));
+    vec3 xf;
+    vec3 yf;
+    complete_frame(vec3(axis), xf, yf);
+
+    // Project the body along the light; its depth range is the body's own.
+    std::vector<dvec2> points;
+    double near = 1e300;
+    double far = -1e300;
+    for (const dvec3& p : body.vertices()) {
+        points.emplace_back(glm::dot(p, dvec3(xf)), glm::dot(p, dvec3(yf)));
+        near = std::min(near, glm::dot(p, axis));
+        far = std::max(far, glm::dot(p, axis));
+    }
+    const double slack = 1e-4 * std::max(far - near, 1e-3);
+    near -= slack + static_cast<double>(guard.metres);
+    far += slack;
+
+    // Choose the least rectangle, widened by the kernels' reach.
+    Rectangle r = least_rectangle(points);
+    widen(r.min.x, r.max.x, guard, static_cast<double>(guard.metres), resolution);
+    widen(r.min.y, r.max.y, guard, static_cast<double>(guard.metres), resolution);
+    const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
+    const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
+
+    GnLightView view;
+    const dvec2 size = r.max - r.min;
+    finish_view(view,
+                {dvec4(right * (2 / size.x), -(r.min.x + r.max.x) / size.x),
+                 dvec4(down * (2 / size.y), -(r.min.y + r.max.y) / size.y),
+                 dvec4(axis / (far - near), -near / (far - near)), dvec4(0, 0, 0, 1)},
+                resolution);
+    view.depth_from_ws = vec4(dvec4(axis / (far - near), -near / (far - near)));
+    view.eye_ws = vec4(vec3(-axis), 0);
+    view.metres_per_depth = static_cast<float>(far - near);
+    view.affine_depth = 1;
+    return view;
+}
+
+namespace {
+
+/// A perspective view with the rectangle [min,max] of tangents along right and down.
+GnLightView perspective(dvec3 eye, dvec3 axis, dvec3 right, dvec3 down, dvec2 min, dvec2 max, double near, double far,
+                        int resolution) {
+    const dvec2 scale = 2.0 / (max - min);
+    const dvec2 shift = -(max + min) / (max - min);
+    const auto row = [&](dvec3 direction) { return dvec4(direction, -glm::dot(direction, eye)); };
+    const dvec4 w = row(axis);
+    GnLightView view;
+    // Raster depth: far (w - near) / (w (far - near)), only for clipping and the depth test's order.
+    finish_view(view,
+                {scale.x * row(right) + shift.x * w, scale.y * row(down) + shift.y * w,
+                 (far / (far - near)) * (w - dvec4(0, 0, 0, near)), w},
+                resolution);
+    view.depth_from_ws = vec4((w - dvec4(0, 0, 0, near)) / (far - near));
+    view.eye_ws = vec4(vec3(eye), 1);
+    view.metres_per_depth = static_cast<float>(far - near);
+    view.affine_depth = 0;
+    return view;
+}
+
+}  // namespace
+
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& scene_ws, int resolution, Guard guard) {
+    const dvec3 eye(vec3(light.position_ws));
+    const double far = 1.001 * farthest(scene_ws, vec3(light.position_ws)) + 1e-3;
+    const double near = near_plane(far);
+
+    // Look at the middle of what is to be seen; a spot keeps its own axis.
+    dvec3 axis(0);
+    for (const dvec3& p : body.vertices()) {
+        axis += glm::length(p - eye) > 0 ? glm::normalize(p - eye) : dvec3(0);
+    }
+    if (light.kind == GN_LIGHT_SPOT || glm::length(axis) == 0) {
+        axis = dvec3(vec3(light.direction_ws));
+    }
+    axis = glm::normalize(axis);
+    vec3 xf;
+    vec3 yf;
+    complete_frame(vec3(axis), xf, yf);
+
+    // Project onto the plane of tangents; give up beyond 75 degrees from the axis.
+    std::vector<dvec2> points;
+    for (const dvec3& p : body.vertices()) {
+        const dvec3 d = p - eye;
+        const double along = glm::dot(d, axis);
+        if (glm::length(d) < 1e-9) {
+            continue;  // the apex of the light's own pyramid
+        }
+        if (along < 0.2588 * glm::length(d)) {
+            return {};
+        }
+        points.emplace_back(glm::dot(d, dvec3(xf)) / along, glm::dot(d, dvec3(yf)) / along);
+    }
+    if (points.size() < 3) {
+        return {};
+    }
+    Rectangle r = least_rectangle(points);
+    const double metres_as_tangent = 0.0;  // a world radius reaches beyond the body only where nothing receives
+    widen(r.min.x, r.max.x, guard, metres_as_tangent, resolution);
+    widen(r.min.y, r.max.y, guard, metres_as_tangent, resolution);
+    const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
+    const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
+    return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};
+}
+
+GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,
+                               int resolution) {
+    const dvec3 right = glm::normalize(glm::cross(dvec3(axis_ws), dvec3(up_ws)));
+    const dvec3 down = glm::cross(dvec3(axis_ws), right);
+    return perspective(eye_ws, axis_ws, right, down, dvec2(-tangent), dvec2(tangent), near, far, resolution);
+}
+
+}  // namespace gn

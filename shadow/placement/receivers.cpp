@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
+#include "shadow/placement/receivers.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+struct CameraFrame {
+    dvec3 eye, right, up, forward;
+};
+
+CameraFrame frame_of(const Camera& camera) {
+    const dvec3 forward = glm::normalize(dvec3(camera.forward_ws));
+    const dvec3 right = glm::normalize(glm::cross(forward, dvec3(camera.up_ws)));
+    return {camera.position_ws, right, glm::cross(right, forward), forward};
+}
+
+/// Six quadrilaterals over eight corners numbered by bits x, y, z.
+ConvexBody box_like(const std::array<dvec3, 8>& c) {
+    ConvexBody body;
+    for (const auto& face :
+         {std::array{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
+        std::vector<dvec3> polygon;
+        for (const int corner : face) {
+            polygon.push_back(c[static_cast<std::size_t>(corner)]);
+        }
+        body.faces_ws.push_back(polygon);
+    }
+    return body;
+}
+
+/// Sutherland and Hodgman's clip of one polygon; the points on the plane are collected for the lid.
+std::vector<dvec3> clip_polygon(const std::vector<dvec3>& polygon, const Plane& plane, std::vector<dvec3>& lid) {
+    std::vector<dvec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const dvec3 a = polygon[i];
+        const dvec3 b = polygon[(i + 1) % polygon.size()];
+        const double da = glm::dot(plane.normal_ws, a) + plane.offset;
+        const double db = glm::dot(plane.normal_ws, b) + plane.offset;
+        if (da >= 0) {
+            kept.push_back(a);
+        }
+        if (da == 0) {
+            lid.push_back(a);
+        }
+        if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
+            const dvec3 cut = a + (b - a) * (da / (da - db));
+            kept.push_back(cut);
+            lid.push_back(cut);
+        }
+    }
+    return kept;
+}
+
+/// Orders coplanar points around their centre.
+std::vector<dvec3> ordered(std::vector<dvec3> points, dvec3 normal) {
+    dvec3 centre(0);
+    for (const dvec3& p : points) {
+        centre += p / static_cast<double>(points.size());
+    }
+    vec3 x;
+    vec3 y;
+    complete_frame(glm::normalize(vec3(normal)), x, y);
+    std::sort(points.begin(), points.end(), [&](const dvec3& a, const dvec3& b) {
+        const auto angle = [&](const dvec3& p) {
+            return std::atan2(glm::dot(p - centre, dvec3(y)), glm::dot(p - centre, dvec3(x)));
+        };
+        return angle(a) < angle(b);
+    });
+    return points;
+}
+
+}  // namespace
+
+std::vector<dvec3> ConvexBody::vertices() const {
+    std::vector<dvec3> all;
+    for (const auto& face : faces_ws) {
+        all.insert(all.end(), face.begin(), face.end());
+    }
+    return all;
+}
+
+ConvexBody body_of(const Box& box_ws) {
+    std::array<dvec3, 8> corners{};
+    const auto floats = box_ws.corners();
+    std::transform(floats.begin(), floats.end(), corners.begin(), [](vec3 c) { return dvec3(c); });
+    return box_like(corners);
+}
+
+ConvexBody body_of(const Camera& camera, float aspect, double near, double far) {
+    const CameraFrame frame = frame_of(camera);
+    const double tangent = std::tan(0.5 * static_cast<double>(camera.yfov));
+    std::array<dvec3, 8> corners{};
+    for (unsigned i = 0; i < 8; ++i) {
+        const double distance = (i & 4U) != 0U ? far : near;
+        const double x = ((i & 1U) != 0U ? 1.0 : -1.0) * tangent * static_cast<double>(aspect);
+        const double y = ((i & 2U) != 0U ? 1.0 : -1.0) * tangent;
+        corners[i] = frame.eye + distance * (frame.forward + x * frame.right + y * frame.up);
+    }
+    return box_like(corners);
+}
+
+std::vector<Plane> frustum_planes(const Camera& camera, float aspect, double near, double far) {
+    const CameraFrame frame = frame_of(camera);
+    const double ty = std::tan(0.5 * static_cast<double>(camera.yfov));
+    const double tx = ty * static_cast<double>(aspect);
+    const auto through_eye = [&](dvec3 normal) { return Plane{normal, -glm::dot(normal, frame.eye)}; };
+    const double along = glm::dot(frame.forward, frame.eye);
+    return {{frame.forward, -along - near},
+            {-frame.forward, along + far},
+            through_eye(tx * frame.forward + frame.right),
+            through_eye(tx * frame.forward - frame.right),
+            through_eye(ty * frame.forward + frame.up),
+            through_eye(ty * frame.forward - frame.up)};
+}
+
+ConvexBody clip(const ConvexBody& body, const Plane& plane) {
+    ConvexBody clipped;
+    std::vector<dvec3> lid;
+    bool cut = false;
+    for (const auto& face : body.faces_ws) {
+        std::vector<dvec3> kept = clip_polygon(face, plane, lid);
+        cut = cut || kept.size() != face.size() || kept != face;
+        if (kept.size() >= 3) {
+            clipped.faces_ws.push_back(std::move(kept));
+        }
+    }
+    if (cut && !clipped.empty() && lid.size() >= 3) {
+        clipped.faces_ws.push_back(ordered(std::move(lid), plane.normal_ws));
+    }
+    return clipped;
+}
+
+ConvexBody potential_receivers(const FrameInput& input) {
+    return potential_receivers(input, static_cast<double>(input.samples.camera.near),
+                               static_cast<double>(input.samples.camera.far));
+}
+
+ConvexBody potential_receivers(const FrameInput& input, double near, double far) {
+    const Camera& camera = input.samples.camera;
+    const float aspect = static_cast<float>(input.samples.width) / static_cast<float>(input.samples.height);
+
+    // S ∩ V: the scene's box cut by the camera's frustum. A flat box is given a little thickness.
+    Box box_ws = input.scene.bounds_ws;
+    if (box_ws.empty()) {
+        return {};
+    }
+    const vec3 thickness(1e-5F * std::max(box_ws.diagonal(), 1e-3F));
+    box_ws.min -= thickness;
+    box_ws.max += thickness;
+    ConvexBody body = body_of(box_ws);
+    for (const Plane& plane : frustum_planes(camera, aspect, near, far)) {
+        body = clip(body, plane);
+    }
+
+    // ∩ L: before a rectangle's plane, inside a spot's pyramid.
+    const GnLight& light = input.light().shape;
+    const dvec3 axis(vec3(light.direction_ws));
+    const dvec3 eye(vec3(light.position_ws));
+    if (light.kind == GN_LIGHT_RECTANGLE || light.kind == GN_LIGHT_SPOT) {
+        body = clip(body, {axis, -glm::dot(axis, eye)});
+    }
+    if (light.kind == GN_LIGHT_SPOT && light.cos_outer > 0.1F) {
+        const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
+        vec3 x;
+        vec3 y;
+        complete_frame(vec3(light.direction_ws), x, y);
+        for (const dvec3 side : {dvec3(x), -dvec3(x), dvec3(y), -dvec3(y)}) {
+            const dvec3 normal = tangent * axis + side;
+            body = clip(body, {normal, -glm::dot(normal, eye)});
+        }
+    }
+    return body;
+}
+
+Guard guard_of(const Recipe& recipe) {
+    Guard total;
+    for (const Part* part : {recipe.map, recipe.lookup}) {
+        if (part != nullptr && part->guard != nullptr) {
+            const Guard guard = part->guard(recipe);
+            total.texels += guard.texels;
+            total.metres += guard.metres;
+        }
+    }
+    total.texels += 1;  // the receiver's own texel and the bias's shift
+    return total;
+}
+
+double farthest(const Box& box_ws, vec3 p_ws) {
+    double distance = 0;
+    for (const vec3 corner : box_ws.corners()) {
+        distance = std::max(distance, glm::length(dvec3(corner) - dvec3(p_ws)));
+    }
+    return distance;
+}
+
+double near_plane(double far) {
+    return std::min(0.5 * far, std::max(1e-3, 1e-4 * far));
+}
+
+}  // namespace gn

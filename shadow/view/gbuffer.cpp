@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The view samples: one G-buffer of what each pixel of the view sees.
+//
+// How exact are the positions? The interpolated position is moved along the triangle's exact normal into the triangle's
+// plane (the vertices are the very floats that the truth traces), so what remains is rounding: a few units in the last
+// place of the coordinates, measured in view_test.cpp.
+#include "shadow/frame.h"
+#include "shadow/view/draw.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* vertex_text = R"(
+#include "shadow/view/view.glsl"
+layout(location = 0) in vec3 in_position_ws;
+layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
+layout(binding = 1, scalar) readonly buffer Normals { vec3 normals[]; };
+layout(binding = 2, scalar) readonly buffer Uvs { vec2 uvs[]; };
+layout(location = 0) out vec3 out_position_ws;
+layout(location = 1) out vec3 out_normal_ws;
+layout(location = 2) out vec2 out_uv;
+invariant gl_Position;
+void main() {
+    gl_Position = u.view.cs_from_ws * vec4(in_position_ws, 1.0);
+    out_position_ws = in_position_ws;
+    out_normal_ws = normals[gl_VertexIndex];
+    out_uv = uvs[gl_VertexIndex];
+}
+)";
+
+constexpr const char* fragment_text = R"(
+#include "shadow/view/view.glsl"
+layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
+layout(binding = 3, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 4, scalar) readonly buffer Indices { uint indices[]; };
+layout(binding = 5) uniform sampler2D base_color_texture;
+layout(push_constant, scalar) uniform Push {
+    vec4 base_color;
+    vec3 emissive;
+    float roughness;
+    float metallic;
+    float alpha_cutoff;   // below zero: opaque
+    uint first_triangle;
+    uint object_id;
+} push;
+layout(location = 0) in vec3 in_position_ws;
+layout(location = 1) in vec3 in_normal_ws;
+layout(location = 2) in vec2 in_uv;
+layout(location = 0) out vec4 out_position;
+layout(location = 1) out vec4 out_normal;
+layout(location = 2) out vec4 out_shading_normal;
+layout(location = 3) out vec4 out_albedo;
+layout(location = 4) out vec4 out_material;
+layout(location = 5) out vec4 out_emission;
+
+void main() {
+    vec4 base_color = texture(base_color_texture, in_uv) * push.base_color;
+    if (push.alpha_cutoff >= 0.0 && textureLod(base_color_texture, in_uv, 0.0).a * push.base_color.a < push.alpha_cutoff) {
+        discard;
+    }
+    // Take the exact plane of the triangle, and move the interpolated point into it.
+    uint corner = 3u * (push.first_triangle + uint(gl_PrimitiveID));
+    vec3 a_ws = positions[indices[corner]];
+    vec3 edge0 = positions[indices[corner + 1u]] - a_ws;
+    vec3 edge1 = positions[indices[corner + 2u]] - a_ws;
+    vec3 n_ws = cross(edge0, edge1);
+    float area = length(n_ws);
+    vec3 to_eye = u.view.eye_ws.xyz - in_position_ws;
+    n_ws = area > 0.0 ? n_ws / area : normalize(to_eye);
+    vec3 p_ws = in_position_ws - n_ws * dot(n_ws, in_position_ws - a_ws);
+    n_ws = dot(n_ws, to_eye) < 0.0 ? -n_ws : n_ws;
+
+    // Orient the shading normal likewise; where the mesh has none, the geometric one serves.
+    vec3 shading_ws = dot(in_normal_ws, in_normal_ws) > 0.25 ? normalize(in_normal_ws) : n_ws;
+    shading_ws = dot(shading_ws, n_ws) < 0.0 ? -shading_ws : shading_ws;
+    vec4 p_cs = u.view.cs_from_ws * vec4(p_ws, 1.0);
+    out_position = vec4(p_ws, 1.0);
+    out_normal = vec4(n_ws, p_cs.w);
+    out_shading_normal = vec4(shading_ws, 0.0);
+    out_albedo = vec4(base_color.rgb, 1.0);
+    out_material = vec4(push.roughness, push.metallic, float(push.object_id & 255u) / 255.0,
+                        float((push.object_id >> 8) & 255u) / 255.0);
+    out_emission = vec4(push.emissive, 0.0);
+}
+)";
+
+struct Push {
+    vec4 base_color;
+    vec3 emissive;
+    float roughness, metallic, alpha_cutoff;
+    std::uint32_t first_triangle, object_id;
+};
+
+RasterDesc gbuffer_pipeline() {
+    RasterDesc desc;
+    desc.vertex = {ShaderKind::vertex, "gbuffer.vert", vertex_text};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag", fragment_text};
+    desc.depth_test = desc.depth_write = true;
+    desc.depth_compare = VK_COMPARE_OP_GREATER;
+    desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
+    desc.vertex_stride = sizeof(vec3);
+    return desc;
+}
+
+GnViewConstants view_constants(const Camera& camera, uint width, uint height) {
+    const mat4 cs_from_ws =
+        cs_from_vs(camera, static_cast<float>(width) / static_cast<float>(height)) * vs_from_ws(camera);
+    return {.cs_from_ws = cs_from_ws,
+            .ws_from_cs = mat4(glm::inverse(glm::dmat4(cs_from_ws))),
+            .eye_ws = vec4(camera.position_ws, 1),
+            .size = uvec4(width, height, 0, 0)};
+}
+
+TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint width, uint height) {
+    return graph.create({.name = name, .format = format, .width = width, .height = height});
+}
+
+void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+        const BaseColor color = base_color(scene, handles, material);
+        r.set("base_color_texture", color.texture, color.sampler);
+        const AlphaTest test = alpha_test(material);
+        r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
+                          is_masked(scene, object) ? test.cutoff : -1.0F, object.first_triangle,
+                          static_cast<std::uint32_t>(i)});
+        r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
+    }
+}
+
+}  // namespace
+
+ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const SceneHandles& handles,
+                             const Camera& camera, uint width, uint height) {
+    ViewSamples samples{.width = width, .height = height, .camera = camera};
+    samples.constants = view_constants(camera, width, height);
+    samples.position = target(graph, "position", VK_FORMAT_R32G32B32A32_SFLOAT, width, height);
+    samples.normal = target(graph, "normal", VK_FORMAT_R32G32B32A32_SFLOAT, width, height);
+    samples.shading_normal = target(graph, "shading normal", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
+    samples.albedo = target(graph, "albedo", VK_FORMAT_R8G8B8A8_SRGB, width, height);
+    samples.material = target(graph, "material", VK_FORMAT_R8G8B8A8_UNORM, width, height);
+    samples.emission = target(graph, "emission", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
+    samples.depth = target(graph, "depth", VK_FORMAT_D32_SFLOAT_S8_UINT, width, height);
+
+    graph.add_pass(
+        "view samples",
+        [&](PassBuilder& pass) {
+            for (const TextureHandle color : {samples.position, samples.normal, samples.shading_normal, samples.albedo,
+                                              samples.material, samples.emission}) {
+                pass.color(color, Load::clear);
+            }
+            pass.depth(samples.depth, Load::clear, {.depth = 0.0F});
+            pass.vertices(handles.positions);
+            pass.indices(handles.indices);
+            for (const BufferHandle buffer : {handles.positions, handles.normals, handles.uvs, handles.indices}) {
+                pass.storage_read(buffer);
+            }
+            sample_textures(pass, handles);
+        },
+        [samples, handles, scene = scene.scene](Recorder& r) {
+            r.bind(gbuffer_pipeline());
+            r.set_value("u", samples.constants);
+            r.set("Normals", handles.normals);
+            r.set("Uvs", handles.uvs);
+            r.set("Positions", handles.positions);
+            r.set("Indices", handles.indices);
+            r.vertex_buffer(handles.positions);
+            r.index_buffer(handles.indices);
+            draw_objects(r, *scene, handles);
+        });
+    return samples;
+}
+
+}  // namespace gn

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/view/read_back.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+template <class T>
+std::vector<T> as_vector(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace
+
+CpuSamples read_samples(FrameGraph& graph, const ViewSamples& samples) {
+    return {samples.width, samples.height, samples.camera, as_vector<vec4>(graph.download(samples.position)),
+            as_vector<vec4>(graph.download(samples.normal))};
+}
+
+Image read_image(FrameGraph& graph, TextureHandle texture) {
+    const TextureDesc& desc = graph.desc(texture);
+    Image image;
+    image.width = static_cast<int>(desc.width);
+    image.height = static_cast<int>(desc.height);
+    image.values = as_vector<float>(graph.download(texture));
+    image.channels = static_cast<int>(image.values.size() / image.pixels());
+    return image;
+}
+
+Image without_alpha(const Image& rgba) {
+    Image rgb(rgba.width, rgba.height, 3);
+    for (std::size_t i = 0; i < rgba.pixels(); ++i) {
+        std::copy_n(rgba.values.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
+                    rgb.values.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+    return rgb;
+}
+
+void record_times(const GraphStatistics& statistics, FrameResult& result) {
+    double shadow = 0;
+    double frame = 0;
+    result.pass_ms.resize(statistics.passes.size());
+    for (std::size_t i = 0; i < statistics.passes.size(); ++i) {
+        frame += statistics.passes[i].ms;
+        shadow += statistics.passes[i].group == "shadow" ? statistics.passes[i].ms : 0.0;
+        result.pass_ms[i].push_back(statistics.passes[i].ms);
+    }
+    result.shadow_ms.push_back(shadow);
+    result.frame_ms.push_back(frame);
+}
+
+void finish_times(const GraphStatistics& statistics, FrameResult& result) {
+    result.statistics = statistics;
+    for (std::size_t i = 0; i < result.pass_ms.size(); ++i) {
+        result.statistics.passes[i].ms = median(result.pass_ms[i]);
+    }
+}
+
+Visibility add_no_shadow(const FrameInput& input) {
+    static constexpr const char* text = R"(
+#include "shadow/view/view.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D gbuffer_position;
+layout(binding = 1) uniform sampler2D gbuffer_normal;
+layout(binding = 2, r32f) uniform writeonly image2D visibility;
+layout(binding = 3, scalar) uniform Constants { GnViewConstants view; GnLight light; } u;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    vec4 position = texelFetch(gbuffer_position, pixel, 0);
+    vec3 n_ws = texelFetch(gbuffer_normal, pixel, 0).xyz;
+    bool counted = position.w > 0.5 && gn_counted(u.light, position.xyz, n_ws);
+    imageStore(visibility, pixel, vec4(counted ? 1.0 : 0.0));
+}
+)";
+    const Visibility result{create_visibility(input.graph, input.samples)};
+    struct Constants {
+        GnViewConstants view;
+        GnLight light;
+    };
+    const Constants constants{input.samples.constants, input.light().shape};
+    input.graph.add_pass(
+        "no shadow",
+        [&](PassBuilder& pass) {
+            pass.sample(input.samples.position);
+            pass.sample(input.samples.normal);
+            pass.storage_write(result.image);
+        },
+        [result, constants, samples = input.samples](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "no shadow", text}, {}});
+            r.set("gbuffer_position", samples.position);
+            r.set("gbuffer_normal", samples.normal);
+            r.set_storage("visibility", result.image);
+            r.set_value("u", constants);
+            r.dispatch_pixels(samples.width, samples.height);
+        });
+    return result;
+}
+
+}  // namespace gn

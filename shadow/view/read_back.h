@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// From a finished graph to the CPU: samples, images, times.
+#pragma once
+
+#include "shadow/frame.h"
+
+namespace gn {
+
+CpuSamples read_samples(FrameGraph& graph, const ViewSamples& samples);
+/// R32F and RGBA32F textures as Image.
+Image read_image(FrameGraph& graph, TextureHandle texture);
+Image without_alpha(const Image& rgba);
+
+/// Adds one run's times to the result; finish_times turns the passes into medians and copies the resources.
+void record_times(const GraphStatistics& statistics, FrameResult& result);
+void finish_times(const GraphStatistics& statistics, FrameResult& result);
+
+/// V = 1 for every counted sample: the recipe `none`.
+Visibility add_no_shadow(const FrameInput& input);
+
+}  // namespace gn
