@@ -53,6 +53,10 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& 
 GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,
                                int resolution);
 
+/// Six perspective views around the light, layers in the order of gn_face_of, each wider than 90 degrees by the kernels'
+/// reach; sets views, layers and data[0] = (light's position, 1).
+void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& recipe);
+
 /// Distance from a point to the farthest corner of the box.
 double farthest(const Box& box_ws, vec3 p_ws);
 /// Distance to the near plane of a light: small, since depth is linear and costs no precision.

@@ -4,24 +4,12 @@
 #ifndef GN_SHADOW_PLACEMENT_CUBE_GLSL
 #define GN_SHADOW_PLACEMENT_CUBE_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/placement/faces.glsl"
 
-// data.values[0].xyz: the light's position. Faces in the order +x -x +y -y +z -z. Each face's view is a little wider
-// than 90 degrees, so that a kernel at its border still reads its own face: no seam.
+// data.values[0].xyz: the light's position. Each face's view is wider than 90 degrees, so that a kernel at its border
+// still reads its own face: no seam.
 GN_FN GnChoice gn_cube_choose(GnReceiver receiver, GnPlacementData data) {
-    vec3 d_ws = receiver.p_ws - vec3(data.values[0]);
-    vec3 a = vec3(abs(d_ws.x), abs(d_ws.y), abs(d_ws.z));
-    GnChoice choice;
-    if (a.x >= a.y && a.x >= a.z) {
-        choice.first = d_ws.x >= 0.0f ? 0 : 1;
-    } else if (a.y >= a.z) {
-        choice.first = d_ws.y >= 0.0f ? 2 : 3;
-    } else {
-        choice.first = d_ws.z >= 0.0f ? 4 : 5;
-    }
-    choice.second = -1;
-    choice.weight = 0.0f;
-    return choice;
+    return gn_only(gn_face_of(receiver.p_ws - vec3(data.values[0])));
 }
 
 #endif

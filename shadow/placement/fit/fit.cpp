@@ -3,7 +3,7 @@
 // before the near plane are kept by depth clamping.
 //
 // Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
-#include "shadow/placement/cube/cube.h"
+#include "shadow/placement/receivers.h"
 
 namespace gn {
 namespace {

@@ -4,13 +4,11 @@
 #ifndef GN_SHADOW_PLACEMENT_FIT_GLSL
 #define GN_SHADOW_PLACEMENT_FIT_GLSL
 
-#include "shadow/placement/cube/cube.glsl"
+#include "shadow/placement/faces.glsl"
 
-// data.values[0].w: 1 when the views are a cube's.
+// data.values[0]: the light's position; w = 1 when the views are a cube's.
 GN_FN GnChoice gn_fit_choose(GnReceiver receiver, GnPlacementData data) {
-    GnChoice choice = gn_cube_choose(receiver, data);
-    choice.first = data.values[0].w > 0.5f ? choice.first : 0;
-    return choice;
+    return gn_only(data.values[0].w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.values[0])) : 0);
 }
 
 #endif

@@ -4,14 +4,8 @@
 #ifndef GN_SHADOW_PLACEMENT_SINGLE_GLSL
 #define GN_SHADOW_PLACEMENT_SINGLE_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/placement/faces.glsl"
 
-GN_FN GnChoice gn_single_choose(GnReceiver receiver, GnPlacementData data) {
-    GnChoice choice;
-    choice.first = 0;
-    choice.second = -1;
-    choice.weight = 0.0f;
-    return choice;
-}
+GN_FN GnChoice gn_single_choose(GnReceiver receiver, GnPlacementData data) { return gn_only(0); }
 
 #endif
