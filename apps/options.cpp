@@ -4,8 +4,8 @@
 #include "apps/output.h"
 #include "base/param.h"
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -48,8 +48,8 @@ Size parse_size(const std::string& text) {
     const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
     if (!separated || height.ec != std::errc{} || height.ptr != end || std::min(size.width, size.height) < 1 ||
         std::max(size.width, size.height) > max_side) {
-        throw InputError(fmt::format("--size: '{}' is no size; it is written WIDTHxHEIGHT in pixels, 1x1 to {}x{}", text,
-                                     max_side, max_side));
+        throw InputError(fmt::format("--size: '{}' is no size; it is written WIDTHxHEIGHT in pixels, 1x1 to {}x{}",
+                                     text, max_side, max_side));
     }
     return size;
 }
@@ -92,7 +92,8 @@ struct Parser {
         command->add_option("WHAT", list.what, "parts, recipes, scenes or metrics; all of them when left out");
         command->add_flag("--json", list.json, "Print JSON");
         CLI::App* page = app.add_subcommand("show", "The manual page of a part, a recipe, a scene or a metric");
-        page->add_option("ID", show.id, "A name that 'gnomon list' prints; 'stage/part' where it means several")->required();
+        page->add_option("ID", show.id, "A name that 'gnomon list' prints; 'stage/part' where it means several")
+            ->required();
     }
 
     void add_render() {
@@ -111,8 +112,9 @@ struct Parser {
         CLI::App* command = app.add_subcommand("compare", "Recipes measured against ray-traced truth, with a report");
         command->add_option("SCENE", compare.scenes, "Built-in names or files")->required();
         command->add_option("-r,--recipe", compare.recipes, "Recipes with overrides; may be repeated")->required();
-        command->add_option("-o,--output", compare.folder, "Folder for the report: DIR/index.html (default: report, "
-                                                           "unless --json is given)");
+        command->add_option("-o,--output", compare.folder,
+                            "Folder for the report: DIR/index.html (default: report, "
+                            "unless --json is given)");
         command->add_option("--json", compare.json, "Write the figures as JSON; - is standard output");
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
@@ -132,9 +134,9 @@ struct Parser {
 
 [[noreturn]] void fail_unexpected(const CLI::App& app, const std::string& word) {
     // Name the options of the command that was being read.
-    const std::vector<const CLI::App*> chosen = app.get_subcommands({}).empty()
-                                                    ? std::vector<const CLI::App*>{}
-                                                    : app.get_subcommands([](const CLI::App* a) { return a->parsed(); });
+    const std::vector<const CLI::App*> chosen =
+        app.get_subcommands({}).empty() ? std::vector<const CLI::App*>{}
+                                        : app.get_subcommands([](const CLI::App* a) { return a->parsed(); });
     const CLI::App& command = chosen.empty() ? app : *chosen.front();
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
@@ -180,10 +182,9 @@ void parse(Parser& parser, int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         std::string sentence = error.what();
         std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-        throw InputError(fmt::format("{} ('gnomon {}--help' explains)", sentence,
-                                     parser.app.get_subcommands().empty()
-                                         ? ""
-                                         : parser.app.get_subcommands().front()->get_name() + " "));
+        throw InputError(fmt::format(
+            "{} ('gnomon {}--help' explains)", sentence,
+            parser.app.get_subcommands().empty() ? "" : parser.app.get_subcommands().front()->get_name() + " "));
     }
 }
 

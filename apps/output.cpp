@@ -23,7 +23,8 @@ void check_writable_parent(std::string_view option, const std::filesystem::path&
         throw InputError(fmt::format("{} {}: folder '{}' does not exist", option, path.string(), parent.string()));
     }
     if (access(parent.c_str(), W_OK) != 0) {
-        throw InputError(fmt::format("{} {}: folder '{}' cannot be written to", option, path.string(), parent.string()));
+        throw InputError(
+            fmt::format("{} {}: folder '{}' cannot be written to", option, path.string(), parent.string()));
     }
 }
 

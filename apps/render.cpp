@@ -71,7 +71,7 @@ int run(const RenderOptions& options) {
     // Draw the frame.
     progress.step(1, 3, fmt::format("drawing {} with {}", options.scene, recipe.name));
     const std::unique_ptr<Device> device = Device::create({.validation = options.validate});
-    const SceneGpu gpu = upload_scene(*device, scene);
+    SceneGpu gpu = upload_scene(*device, scene);
     FrameOptions frame_options;
     frame_options.width = static_cast<uint>(options.size.width);
     frame_options.height = static_cast<uint>(options.size.height);

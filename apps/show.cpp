@@ -13,7 +13,9 @@
 namespace gn {
 namespace {
 
-std::string_view stage_of(const Part& part) { return stage_names[static_cast<std::size_t>(part.stage)]; }
+std::string_view stage_of(const Part& part) {
+    return stage_names[static_cast<std::size_t>(part.stage)];
+}
 
 std::string range_of(const ParamRow& row) {
     switch (row.type) {
@@ -33,8 +35,8 @@ std::string range_of(const ParamRow& row) {
 std::string parameter_table(const ParamBlock& block, std::string_view group, const std::string& value_title) {
     std::vector<std::vector<std::string>> rows;
     for (const ParamRow& row : block.table()->rows) {
-        rows.push_back({fmt::format("{}.{}", group, row.name), block.get(row.name), range_of(row), std::string(row.unit),
-                        std::string(row.sentence)});
+        rows.push_back({fmt::format("{}.{}", group, row.name), block.get(row.name), range_of(row),
+                        std::string(row.unit), std::string(row.sentence)});
     }
     return text_table({"parameter", value_title, "range", "unit", "consequence"}, rows, 5);
 }
@@ -78,7 +80,9 @@ void show_part(const Part& part) {
     }
 }
 
-std::string part_name(const Part* part, std::string_view absent) { return std::string(part ? part->id : absent); }
+std::string part_name(const Part* part, std::string_view absent) {
+    return std::string(part ? part->id : absent);
+}
 
 void show_recipe(const std::string& name) {
     const Recipe recipe = load_recipe(name);
@@ -110,9 +114,9 @@ void show_recipe(const std::string& name) {
 
 void show_scene(const BuiltinScene& scene) {
     fmt::print("scene '{}': {}\n", scene.name, scene.sentence);
-    fmt::print("{}", scene.parameters.empty() ? "It has no parameters.\n"
-                                              : fmt::format("Parameters, written {}:name=value: {}\n", scene.name,
-                                                            scene.parameters));
+    fmt::print("{}", scene.parameters.empty()
+                         ? "It has no parameters.\n"
+                         : fmt::format("Parameters, written {}:name=value: {}\n", scene.name, scene.parameters));
 }
 
 /// Shows everything of that name and returns how many things there were.

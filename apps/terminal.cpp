@@ -16,7 +16,9 @@ namespace {
 
 volatile std::sig_atomic_t stop_flag = 0;
 
-extern "C" void on_stop(int /*signal*/) { stop_flag = 1; }
+extern "C" void on_stop(int /*signal*/) {
+    stop_flag = 1;
+}
 
 std::size_t terminal_columns() {
     winsize size{};
@@ -31,7 +33,9 @@ std::size_t columns(std::string_view text) {
 }  // namespace
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+    clear();
+}
 
 void Progress::step(int done, int total, std::string label) {
     done_ = done;
@@ -139,6 +143,8 @@ void watch_signals() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-bool stop_requested() { return stop_flag != 0; }
+bool stop_requested() {
+    return stop_flag != 0;
+}
 
 }  // namespace gn

@@ -5,8 +5,8 @@
 #include "base/paths.h"
 #include "gpu/hash.h"
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -66,7 +66,9 @@ void add_scene(Hasher& hasher, const Scene& scene) {
     }
 }
 
-std::size_t pixels(int width, int height) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+std::size_t pixels(int width, int height) {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
 
 }  // namespace
 
@@ -210,7 +212,8 @@ void ResultCache::store(const std::string& key, const TruthResult& truth, int wi
     }
     // The numbers come last: they say that the picture is complete.
     write_exr(file("truth", key, "exr"), stored);
-    const nlohmann::ordered_json numbers{{"seconds", truth.seconds}, {"mean_standard_error", truth.mean_standard_error}};
+    const nlohmann::ordered_json numbers{{"seconds", truth.seconds},
+                                         {"mean_standard_error", truth.mean_standard_error}};
     write_text(file("truth", key, "json"), dump(numbers, 1));
 }
 

@@ -23,7 +23,8 @@ class ResultCache {
     [[nodiscard]] std::string view_key(const Scene& scene, const std::string& asked, const Camera& camera) const;
     [[nodiscard]] std::string run_key(const std::string& view_key, const Recipe& recipe) const;
     /// The truth depends on the very samples that were rendered.
-    [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples, std::size_t light) const;
+    [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples,
+                                        std::size_t light) const;
 
     /// Nothing when absent, unreadable, or when a picture that it names is gone.
     [[nodiscard]] std::optional<RunResult> find_run(const std::string& key) const;

@@ -38,7 +38,8 @@ Image error_map(std::span<const float> signed_error, std::span<const std::uint8_
     Image map(width, height, 3);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const std::size_t p = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const std::size_t p =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const vec3 outside = (x + y) % 8 < 2 ? hatch : uncounted;
             put(map, x, y, counted[p] != 0 ? error_color(signed_error[p]) : outside);
         }

@@ -26,7 +26,7 @@ Spread spread_of(std::vector<double> values);
 struct LightResult {
     std::string name, status = "ok", reason;  ///< status: ok or refused
     Errors errors;
-    std::string error_map;                    ///< file beside the report, or ""
+    std::string error_map;  ///< file beside the report, or ""
 };
 
 struct PassResult {

@@ -12,7 +12,9 @@ namespace {
 using nlohmann::ordered_json;
 
 /// The errors of a run, in the contract's order; `flicker` needs a camera path and is not among them.
-bool in_contract(const MetricInfo& metric) { return metric.name != "flicker"; }
+bool in_contract(const MetricInfo& metric) {
+    return metric.name != "flicker";
+}
 
 ordered_json number(std::optional<double> value) {
     return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
@@ -97,14 +99,10 @@ ordered_json scene_json(const SceneResult& scene) {
     for (const LightInfo& light : scene.lights) {
         lights.push_back({{"name", light.name}, {"kind", light.kind}, {"size", light.size}});
     }
-    return {{"scene", scene.scene},
-            {"name", scene.name},
-            {"view", scene.view},
-            {"size", {scene.width, scene.height}},
-            {"triangles", scene.triangles},
-            {"lights", lights},
-            {"notes", scene.notes},
-            {"reference", reference_json(scene.reference)}};
+    return {{"scene", scene.scene},         {"name", scene.name},
+            {"view", scene.view},           {"size", {scene.width, scene.height}},
+            {"triangles", scene.triangles}, {"lights", lights},
+            {"notes", scene.notes},         {"reference", reference_json(scene.reference)}};
 }
 
 /// All references as one: seconds add up, standard errors are averaged over the scenes that have one.
@@ -222,7 +220,9 @@ ReferenceResult reference_from_json(const ordered_json& json) {
     return {json.at("samples"), json.at("seconds"), json.at("standard_error"), json.at("picture")};
 }
 
-ordered_json contract_json(const Comparison& comparison) { return document(comparison, false); }
+ordered_json contract_json(const Comparison& comparison) {
+    return document(comparison, false);
+}
 
 ordered_json report_json(const Comparison& comparison) {
     ordered_json json = document(comparison, true);

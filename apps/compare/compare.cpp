@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// gnomon compare: every recipe on every scene; each finished run is written at once.
+#include "apps/compare/measure.h"
+#include "apps/compare/publish.h"
+#include "apps/options.h"
+#include "apps/output.h"
+
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+namespace gn {
+namespace {
+
+template <class T>
+std::vector<T> without_repeats(const std::vector<T>& items) {
+    std::vector<T> unique;
+    for (const T& item : items) {
+        if (std::find(unique.begin(), unique.end(), item) == unique.end()) {
+            unique.push_back(item);
+        }
+    }
+    return unique;
+}
+
+/// Finds misspelt scenes before an hour of work on the others.
+void check_scene_exists(const std::string& asked) {
+    const std::string name = asked.substr(0, asked.find(':'));
+    const auto& known = builtin_scenes();
+    const bool builtin = std::any_of(known.begin(), known.end(), [&](const BuiltinScene& s) { return s.name == name; });
+    std::error_code code;
+    if (!builtin && !std::filesystem::exists(asked, code)) {
+        load_scene(asked);
+    }
+}
+
+AskedRecipe read_recipe(const std::string& text) {
+    try {
+        return {text, load_recipe(text)};
+    } catch (const Error& error) {
+        // Everything between -r and the next option is a recipe: say so to whom wrote a scene there.
+        const auto& known = builtin_scenes();
+        const bool scene =
+            std::any_of(known.begin(), known.end(), [&](const BuiltinScene& s) { return s.name == text; });
+        throw InputError(scene
+                             ? fmt::format("-r: '{}' is a scene, not a recipe; scenes stand before the first -r", text)
+                             : error.what());
+    }
+}
+
+class Comparer {
+  public:
+    explicit Comparer(const CompareOptions& options)
+        : options_(options),
+          bench_(options.validate),
+          cache_(options.folder, options.fresh, options, bench_.device().info()) {
+        comparison_.device = bench_.device().info();
+        comparison_.command = options.command;
+        comparison_.samples = options.samples;
+        comparison_.repeat = options.repeat;
+    }
+
+    int run(const std::vector<AskedRecipe>& recipes) {
+        const int steps = static_cast<int>(options_.scenes.size() * (recipes.size() + 1));
+        int step = 0;
+        for (const std::string& scene : options_.scenes) {
+            compare_scene(scene, recipes, step, steps);
+            step += static_cast<int>(recipes.size() + 1);
+        }
+        progress_.clear();
+        finish();
+        return status_;
+    }
+
+  private:
+    void compare_scene(const std::string& asked, const std::vector<AskedRecipe>& recipes, int step, int steps) {
+        if (stop_requested()) {
+            return;
+        }
+        progress_.step(step, steps, "reading " + asked);
+        std::optional<ViewSession> view;
+        if (const std::string sentence = failure_of([&] { open(view, asked); }); !sentence.empty()) {
+            fail_scene(asked, recipes, sentence);
+            return;
+        }
+        const std::size_t index = comparison_.scenes.size();
+        comparison_.scenes.push_back(view->result);
+        for (std::size_t r = 0; r < recipes.size() && !stop_requested(); ++r) {
+            const int at = step + 1 + static_cast<int>(r);
+            if (!add_run(*view, recipes[r], at, steps)) {
+                return;
+            }
+            comparison_.scenes[index].reference = view->result.reference;
+            publish();
+        }
+    }
+
+    void open(std::optional<ViewSession>& view, const std::string& asked) {
+        view.emplace(asked, options_);
+        view->name_in(cache_);
+        for (const std::string& note : view->scene().notes) {
+            spdlog::info("{}: {}", asked, note);
+        }
+    }
+
+    /// Adds the run, from the cache or measured; false when the user asked to stop before it was complete.
+    bool add_run(ViewSession& view, const AskedRecipe& asked, int step, int steps) {
+        const std::string key = cache_.run_key(view.key(), asked.recipe);
+        if (auto known = cache_.find_run(key); known && view.result.reference.samples > 0) {
+            spdlog::info("{} with {}: taken from an earlier run", view.result.scene, asked.text);
+            comparison_.runs.push_back(std::move(*known));
+            return true;
+        }
+        // Trace what is missing, then measure; what fails becomes a failed run.
+        RunResult run;
+        bool stopped = false;
+        const std::string sentence = failure_of([&] {
+            progress_.step(step - 1, steps, fmt::format("{}: tracing the truth", view.result.scene));
+            stopped = !view.prepare(bench_, cache_, progress_);
+            if (stopped) {
+                return;
+            }
+            progress_.step(step, steps, fmt::format("{}: {}", view.result.scene, asked.text));
+            run = measure(view, bench_, asked, key, options_);
+        });
+        if (stopped) {
+            return false;
+        }
+        if (!sentence.empty()) {
+            run = failed_run(view.result.scene, asked, sentence);
+            recover(view);
+        }
+        if (run.status == "ok") {
+            cache_.store(key, run);
+        }
+        take(std::move(run));
+        return true;
+    }
+
+    /// The sentence of what went wrong in `body`, or "". Remembers which exit status it means.
+    template <class Body>
+    std::string failure_of(const Body& body) {
+        try {
+            body();
+            return {};
+        } catch (const InputError& error) {
+            status_ = exit_input;
+            return error.what();
+        } catch (const std::bad_alloc&) {
+            worsen(exit_failed);
+            return "out of memory; a smaller --size, resolution or scene needs less";
+        } catch (const std::exception& error) {
+            worsen(exit_failed);
+            return error.what();
+        }
+    }
+
+    void worsen(int status) { status_ = std::max(status_, status); }
+
+    RunResult failed_run(const std::string& scene, const AskedRecipe& asked, const std::string& sentence) {
+        RunResult run = describe_run(scene, asked, options_);
+        run.status = "failed";
+        run.reason = sentence;
+        return run;
+    }
+
+    void fail_scene(const std::string& asked, const std::vector<AskedRecipe>& recipes, const std::string& sentence) {
+        progress_.clear();
+        fmt::print(stderr, "gnomon: {}\n", sentence);
+        SceneResult scene;
+        scene.scene = scene.name = asked;
+        scene.view = options_.view;
+        scene.width = options_.size.width;
+        scene.height = options_.size.height;
+        comparison_.scenes.push_back(scene);
+        for (const AskedRecipe& recipe : recipes) {
+            comparison_.runs.push_back(failed_run(asked, recipe, sentence));
+        }
+        publish();
+    }
+
+    /// After a failure the device may be lost: the next run then gets a new one.
+    void recover(ViewSession& view) {
+        if (!bench_.alive()) {
+            view.release_device();
+            bench_.replace();
+        }
+    }
+
+    void take(RunResult run) {
+        const bool light_refused = std::any_of(run.lights.begin(), run.lights.end(),
+                                               [](const LightResult& light) { return light.status == "refused"; });
+        if (run.status == "failed") {
+            worsen(exit_failed);
+        }
+        if (options_.strict && (run.status == "refused" || light_refused)) {
+            worsen(exit_failed);
+        }
+        if (run.status != "ok") {
+            progress_.clear();
+            fmt::print(stderr, "gnomon: {} with {} {}: {}\n", run.scene, run.recipe, run.status, run.reason);
+        }
+        comparison_.runs.push_back(std::move(run));
+    }
+
+    void publish() {
+        if (!options_.folder.empty()) {
+            write_report(options_.folder, comparison_);
+        }
+        if (!options_.json.empty() && options_.json != "-") {
+            write_text(options_.json, dump(contract_json(comparison_), 2) + "\n");
+        }
+    }
+
+    void finish() {
+        if (stop_requested()) {
+            fmt::print(stderr, "gnomon: stopped; {} finished runs are kept\n", comparison_.runs.size());
+            worsen(exit_failed);
+        }
+        publish();
+        if (options_.json == "-") {
+            fmt::print("{}\n", dump(contract_json(comparison_), 2));
+            return;
+        }
+        fmt::print("{}", summary_table(comparison_));
+        fmt::print("on {} ({})\n", comparison_.device.name, comparison_.device.driver);
+        fmt::print("{}", options_.folder.empty() ? "" : fmt::format("report: {}/index.html\n", options_.folder));
+    }
+
+    CompareOptions options_;
+    Bench bench_;
+    ResultCache cache_;
+    Progress progress_;
+    Comparison comparison_;
+    int status_ = exit_done;
+};
+
+}  // namespace
+
+int run(const CompareOptions& asked) {
+    // Read everything that can be wrong before the first frame.
+    CompareOptions options = asked;
+    options.scenes = without_repeats(options.scenes);
+    options.recipes = without_repeats(options.recipes);
+    std::vector<AskedRecipe> recipes;
+    for (const std::string& text : options.recipes) {
+        recipes.push_back(read_recipe(text));
+    }
+    for (const std::string& scene : options.scenes) {
+        reading([&] { check_scene_exists(scene); });
+    }
+    if (options.json != "-") {
+        check_writable_parent("--json", options.json);
+    }
+    if (!options.folder.empty()) {
+        prepare_report(options.folder);
+    }
+    // A software device reads its number of threads once, when it is made.
+    if (options.threads > 0) {
+        setenv("LP_NUM_THREADS", fmt::format("{}", options.threads).c_str(), 0);
+    }
+    watch_signals();
+    return Comparer(options).run(recipes);
+}
+
+}  // namespace gn

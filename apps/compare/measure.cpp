@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/measure.h"
+
+#include "apps/compare/pictures.h"
+#include "apps/output.h"
+#include "shadow/shading/tonemap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+/// Parameters of all parts that take part, as `gnomon show` names them.
+void add_parameters(RunResult& run, const Recipe& recipe) {
+    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        for (const ParamRow& row : part != nullptr ? part->params.rows : std::vector<ParamRow>{}) {
+            run.parameters.emplace_back(fmt::format("{}.{}", part->id, row.name), recipe.block(*part).get(row.name));
+        }
+    }
+    if (recipe.map == nullptr) {
+        return;
+    }
+    // Resolution, casters and bias belong to every map.
+    run.parameters.emplace_back("placement", recipe.placement != nullptr ? recipe.placement->id : "auto");
+    run.parameters.emplace_back("resolution", fmt::format("{}", recipe.resolution));
+    run.parameters.emplace_back("casters", recipe.casters);
+    ParamTable bias = bias_params;
+    std::memcpy(bias.defaults.data(), &recipe.bias, sizeof recipe.bias);
+    for (const ParamRow& row : bias.rows) {
+        run.parameters.emplace_back(fmt::format("bias.{}", row.name), ParamBlock(bias).get(row.name));
+    }
+}
+
+std::string command_for(const std::string& scene, const std::string& recipe, const CompareOptions& options) {
+    std::string command =
+        fmt::format("gnomon compare {} -r {} --size {}x{} --samples {} --repeat {}", shell_word(scene),
+                    shell_word(recipe), options.size.width, options.size.height, options.samples, options.repeat);
+    command += options.view.empty() ? "" : " --view " + shell_word(options.view);
+    command += options.light.empty() ? "" : " --light " + shell_word(options.light);
+    return command + (options.validate ? " --validate" : "") + " -o report";
+}
+
+/// Signed errors of one light, and at every pixel the largest so far.
+struct SignedErrors {
+    std::vector<float> largest;
+    std::vector<std::uint8_t> counted;
+
+    std::vector<float> add(const Image& technique, const TruthResult& truth) {
+        std::vector<float> errors(truth.visibility.size());
+        largest.resize(errors.size());
+        counted.resize(errors.size());
+        for (std::size_t p = 0; p < errors.size(); ++p) {
+            if (truth.counted[p] == 0) {
+                continue;
+            }
+            errors[p] = technique.values[p] - truth.visibility[p];
+            counted[p] = 1;
+            largest[p] = std::abs(errors[p]) > std::abs(largest[p]) ? errors[p] : largest[p];
+        }
+        return errors;
+    }
+};
+
+struct PictureNames {
+    std::filesystem::path folder;
+    std::string stem;  ///< "pictures/courtyard-pcf-0a1b2c3d"
+
+    std::string write(const std::string& what, const Image& image) const {
+        if (folder.empty()) {
+            return {};
+        }
+        const std::string name = fmt::format("{}-{}.png", stem, what);
+        write_png(folder / name, image);
+        return name;
+    }
+};
+
+/// Errors and error map of every light that is asked for; returns which of the scene's lights were served.
+std::vector<bool> measure_lights(RunResult& run, const ViewSession& view, const FrameResult& frame,
+                                 const PictureNames& names) {
+    SignedErrors combined;
+    std::vector<Errors> errors;
+    std::vector<bool> served(view.scene().lights.size(), false);
+    for (std::size_t l = 0; l < served.size(); ++l) {
+        if (!view.wanted(l)) {
+            continue;
+        }
+        LightResult light{view.scene().lights[l].name};
+        if (!frame.refused[l].empty()) {
+            light.status = "refused";
+            light.reason = frame.refused[l];
+        } else {
+            const TruthResult& truth = view.truth(l);
+            light.errors =
+                visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
+            errors.push_back(light.errors);
+            served[l] = true;
+            const std::vector<float> map = combined.add(frame.visibility[l], truth);
+            if (view.result.lights.size() > 1) {
+                light.error_map =
+                    names.write(fmt::format("error-{}", l), error_map(map, truth.counted, run.width, run.height));
+            }
+        }
+        run.lights.push_back(light);
+    }
+    // Pool the served lights.
+    if (!errors.empty()) {
+        run.errors = pool(errors);
+        run.error_map = names.write("error", error_map(combined.largest, combined.counted, run.width, run.height));
+    }
+    return served;
+}
+
+/// Both pictures with the same lights shadowed: what was refused stays lit in the technique's and in the reference's.
+void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const FrameResult& frame,
+                      const std::vector<bool>& served, const PictureNames& names) {
+    const bool all = std::all_of(run.lights.begin(), run.lights.end(),
+                                 [](const LightResult& light) { return light.status == "ok"; });
+    const Image technique = tonemap(frame.picture, view.exposure());
+    const Image reference = all ? view.reference_picture() : view.picture_of(bench, view.reference_visibility(served));
+    run.errors.luma_rms = luma_rms(technique, reference);
+    run.errors.flip = flip(technique, reference);
+    run.picture = names.write("picture", technique);
+}
+
+void account(RunResult& run, const FrameResult& frame) {
+    run.shadow = spread_of(frame.shadow_ms);
+    run.frame = spread_of(frame.frame_ms);
+    for (const PassTime& pass : frame.statistics.passes) {
+        run.passes.push_back({pass.name, pass.group, pass.ms});
+    }
+    for (const ResourceBytes& resource : frame.statistics.resources) {
+        if (resource.group == "shadow") {
+            run.resources.push_back({resource.name, resource.bytes});
+            run.bytes += resource.bytes;
+        }
+    }
+}
+
+/// The distinct reasons of all lights in one sentence.
+std::string joined_reasons(const RunResult& run) {
+    std::vector<std::string> reasons;
+    for (const LightResult& light : run.lights) {
+        if (std::find(reasons.begin(), reasons.end(), light.reason) == reasons.end()) {
+            reasons.push_back(light.reason);
+        }
+    }
+    std::string sentence;
+    for (const std::string& reason : reasons) {
+        sentence += (sentence.empty() ? "" : "; ") + reason;
+    }
+    return sentence;
+}
+
+}  // namespace
+
+RunResult describe_run(const std::string& scene, const AskedRecipe& asked, const CompareOptions& options) {
+    const Recipe& recipe = asked.recipe;
+    RunResult run;
+    run.scene = scene;
+    run.view = options.view;
+    run.recipe = recipe.name;
+    run.overrides = recipe.overrides;
+    run.width = options.size.width;
+    run.height = options.size.height;
+    run.title = recipe.title;
+    run.citation = recipe.citation;
+    run.paragraph = recipe.paragraph;
+    run.command = command_for(scene, asked.text, options);
+    add_parameters(run, recipe);
+    return run;
+}
+
+RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, const std::string& run_key,
+                  const CompareOptions& options) {
+    RunResult run = describe_run(view.result.scene, asked, options);
+    run.view = view.camera().name;
+    const std::size_t messages_before = bench.device().messages().size();
+
+    // Draw, and time.
+    FrameOptions frame_options;
+    frame_options.width = static_cast<uint>(run.width);
+    frame_options.height = static_cast<uint>(run.height);
+    frame_options.repeat = options.repeat;
+    frame_options.only_light = view.only_light();
+    const FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.camera(), asked.recipe, frame_options);
+
+    // Hold every light against the truth, then the pictures.
+    const PictureNames names{options.folder, fmt::format("pictures/{}-{}-{}", slug(view.result.name),
+                                                         slug(asked.recipe.name), run_key.substr(0, 8))};
+    const std::vector<bool> served = measure_lights(run, view, frame, names);
+    if (std::find(served.begin(), served.end(), true) == served.end()) {
+        run.status = "refused";
+        run.reason = joined_reasons(run);
+        return run;
+    }
+    measure_pictures(run, view, bench, frame, served, names);
+    account(run, frame);
+
+    // What the validation layers say makes every figure doubtful.
+    const std::vector<std::string>& messages = bench.device().messages();
+    if (messages.size() > messages_before) {
+        run.status = "failed";
+        run.reason = fmt::format("{} validation messages, the first: {}", messages.size() - messages_before,
+                                 messages[messages_before]);
+    }
+    return run;
+}
+
+}  // namespace gn

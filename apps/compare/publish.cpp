@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/publish.h"
+
+#include "apps/compare/pictures.h"
+#include "apps/options.h"
+#include "apps/output.h"
+#include "apps/terminal.h"
+#include "base/paths.h"
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+namespace gn {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Puts `value` where `text` says `{{name}}`.
+void fill_in(std::string& text, const std::string& name, const std::string& value) {
+    const std::string mark = "{{" + name + "}}";
+    const std::size_t at = text.find(mark);
+    GN_CHECK(at != std::string::npos);
+    text.replace(at, mark.size(), value);
+}
+
+/// JSON that may stand inside a script element: no text in it can end the element.
+std::string for_script_element(std::string json) {
+    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1)) {
+        json.replace(at, 1, "\\u003c");
+    }
+    return json;
+}
+
+std::string milliseconds(std::optional<double> value) {
+    return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
+}  // namespace
+
+void prepare_report(const fs::path& folder) {
+    std::error_code code;
+    for (const char* inside : {"pictures", "results"}) {
+        fs::create_directories(folder / inside, code);
+        if (code || access((folder / inside).c_str(), W_OK) != 0) {
+            throw InputError(fmt::format("-o {}: the folder cannot be made or written to{}{}", folder.string(),
+                                         code ? ": " : "", code ? code.message() : ""));
+        }
+    }
+    write_png(folder / "pictures" / "error-scale.png", error_scale());
+}
+
+void write_report(const fs::path& folder, const Comparison& comparison) {
+    const fs::path templates = data_root() / "apps" / "report";
+    std::string page = read_text(templates / "index.html");
+    fill_in(page, "style", read_text(templates / "report.css"));
+    fill_in(page, "script", read_text(templates / "report.js"));
+    fill_in(page, "data", for_script_element(dump(report_json(comparison), -1)));
+    write_text(folder / "index.html", page);
+}
+
+std::string summary_table(const Comparison& comparison) {
+    const std::vector<std::string> header{"scene", "recipe",   "status", "rmse",      "mismatch", "leak",
+                                          "acne",  "penumbra", "flip",   "shadow ms", "frame ms", "memory"};
+    std::vector<std::vector<std::string>> rows;
+    for (const RunResult& run : comparison.runs) {
+        const Errors& e = run.errors;
+        rows.push_back({run.scene, run.overrides.empty() ? run.recipe : run.recipe + "," + run.overrides, run.status,
+                        figure(e.rmse), figure(e.mismatch), figure(e.leak), figure(e.acne), figure(e.penumbra),
+                        figure(e.flip), milliseconds(run.shadow.median), milliseconds(run.frame.median),
+                        run.status == "ok" ? human_bytes(run.bytes) : "-"});
+    }
+    return text_table(header, rows, 3);
+}
+
+}  // namespace gn

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Results out of the door: table, JSON, report.
+#pragma once
+
+#include "apps/compare/result.h"
+
+#include <filesystem>
+
+namespace gn {
+
+/// Makes DIR with its folders and what the report always needs. Throws InputError when it cannot be written.
+void prepare_report(const std::filesystem::path& folder);
+/// Writes DIR/index.html, complete in itself but for the pictures beside it. Throws Error.
+void write_report(const std::filesystem::path& folder, const Comparison& comparison);
+/// The figures as a table for a terminal.
+std::string summary_table(const Comparison& comparison);
+
+}  // namespace gn
