@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Based on: Blinn. Me and My (Fake) Shadow. IEEE Computer Graphics and Applications 1988. [Bli88]
+// Based on: Akenine-Moller et al. Real-Time Rendering, 4th edition, section 7.1. 2018. [AHH18]
+// Departs from it: receiver planes are found in the mesh, and the stencil names the plane of each view sample.
+//
+// Also here: planar_planes.h, planar_planes.cpp.
+#include "shadow/direct/planar/planar.h"
+
+#include "shadow/direct/planar/planar_planes.h"
+#include "shadow/direct/stage.h"
+#include "shadow/recipe.h"
+#include "shadow/view/draw.h"
+
+namespace gn::parts {
+
+namespace {
+
+constexpr const char* receiver_text = R"(
+#include "shadow/direct/planar/planar.glsl"
+#include "shadow/scene/light.h"
+layout(constant_id = 0) const int MARK = 0;
+layout(binding = 0, scalar) uniform Light { GnLight light; } u_light;
+layout(binding = 1) uniform sampler2D position_ws;
+layout(binding = 2) uniform sampler2D normal_ws;
+layout(binding = 3, scalar) uniform Frame { GnPlanarFrame frame; } u;
+layout(location = 0) out float visibility;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 p_ws = texelFetch(position_ws, pixel, 0);
+    vec3 n_ws = texelFetch(normal_ws, pixel, 0).xyz;
+    bool counted = p_ws.w > 0.0 && gn_counted(u_light.light, p_ws.xyz, n_ws);
+    if (MARK != 0 && !(counted && gn_planar_on_plane(u.frame.plane_ws, u.frame.tolerance, p_ws.xyz, n_ws))) {
+        discard;
+    }
+    visibility = counted ? 1.0 : 0.0;
+}
+)";
+
+constexpr const char* caster_vertex_text = R"(
+#include "shadow/direct/planar/planar.glsl"
+layout(binding = 0, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
+layout(binding = 3, scalar) uniform Frame { GnPlanarFrame frame; } u;
+layout(location = 0) out vec2 out_uv;
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[2]; };
+void main() {
+    vec3 p_ws = positions[gl_VertexIndex];
+    out_uv = uvs[gl_VertexIndex];
+    gl_Position = u.frame.cs_from_ws * gn_planar_project(u.frame.plane_ws, u.frame.light_ws, p_ws);
+    // Only what stands between plane and light casts: the rest would throw an antishadow. [AHH18] section 7.1
+    float height = gn_planar_height(u.frame.plane_ws, vec4(p_ws, 1.0));
+    gl_ClipDistance[0] = height - u.frame.tolerance;
+    gl_ClipDistance[1] = u.frame.light_ws.w > 0.0 ? gn_planar_height(u.frame.plane_ws, u.frame.light_ws) - height : 1.0;
+}
+)";
+
+constexpr const char* caster_fragment_text = R"(
+layout(constant_id = 0) const int MASKED = 0;
+layout(binding = 2) uniform sampler2D base_color_texture;
+layout(push_constant, scalar) uniform Push { float base_alpha; float cutoff; } push;
+layout(location = 0) in vec2 in_uv;
+layout(location = 0) out float visibility;
+void main() {
+    if (MASKED != 0 && textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.cutoff) {
+        discard;
+    }
+    visibility = 0.0;
+}
+)";
+
+RasterDesc with_stencil(RasterDesc desc, VkCompareOp compare, VkStencilOp pass) {
+    const VkStencilOpState state{.failOp = VK_STENCIL_OP_KEEP,
+                                 .passOp = pass,
+                                 .depthFailOp = pass,
+                                 .compareOp = compare,
+                                 .compareMask = 0xFF,
+                                 .writeMask = 0xFF,
+                                 .reference = 0};
+    desc.stencil = StencilOps{state, state};
+    return desc;
+}
+
+RasterDesc receiver_pipeline(bool mark) {
+    RasterDesc desc = fullscreen({ShaderKind::fragment, "planar-receiver.frag", receiver_text});
+    desc.constants = {{0, mark ? 1U : 0U}};
+    desc.color_mask = mark ? 0 : 0xF;
+    return with_stencil(desc, VK_COMPARE_OP_ALWAYS, mark ? VK_STENCIL_OP_REPLACE : VK_STENCIL_OP_ZERO);
+}
+
+// No depth test: the stencil knows the plane of each sample, so nothing can fight over it.
+RasterDesc caster_pipeline(bool masked) {
+    RasterDesc desc;
+    desc.vertex = {ShaderKind::vertex, "planar-caster.vert", caster_vertex_text};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "planar-caster.frag", caster_fragment_text};
+    desc.constants = {{0, masked ? 1U : 0U}};
+    return with_stencil(desc, VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_ZERO);
+}
+
+// The planes that this light shines on, turned towards it.
+std::vector<GnPlanarFrame> lit_planes(const FrameInput& input, const ReceiverPlanes& found) {
+    std::vector<GnPlanarFrame> frames;
+    const vec4 light_ws = light_point_ws(input.light().shape);
+    for (const ReceiverPlane& receiver : found.planes) {
+        const float height = glm::dot(receiver.plane_ws, light_ws);
+        if (height != 0.0F) {
+            frames.push_back({input.samples.constants.cs_from_ws, light_ws,
+                              height > 0.0F ? receiver.plane_ws : -receiver.plane_ws, found.tolerance});
+        }
+    }
+    return frames;
+}
+
+void add_receivers(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
+    input.graph.add_pass(
+        "planar: receivers",
+        [&](PassBuilder& pass) {
+            pass.color(image, Load::clear);
+            pass.depth_read_only(input.samples.depth);
+            pass.sample(input.samples.position);
+            pass.sample(input.samples.normal);
+        },
+        [samples = input.samples, light = input.light().shape, planes, image](Recorder& r) {
+            const auto draw = [&](bool mark, std::uint32_t name, const GnPlanarFrame& frame) {
+                r.bind(receiver_pipeline(mark));
+                r.stencil_reference(name);
+                r.set_value("u_light", light);
+                r.set("position_ws", samples.position);
+                r.set("normal_ws", samples.normal);
+                r.set_value("u", frame);
+                r.draw(3);
+            };
+            // Light every sample that counts, then write each plane's number where it is seen.
+            draw(false, 0, {});
+            for (std::uint32_t i = 0; i < planes.size(); ++i) {
+                draw(true, i + 1, planes[i]);
+            }
+        });
+}
+
+void draw_casters(Recorder& r, const Scene& scene, const SceneHandles& handles, const std::vector<CasterKind>& kinds,
+                  bool masked) {
+    if (!masked) {
+        for (const TriangleRun& run : opaque_caster_runs(scene, kinds)) {
+            r.draw_indexed(run.count * 3, 1, run.first * 3);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] == CasterKind::masked) {
+            const Object& object = scene.objects[i];
+            const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+            const BaseColor color = base_color(scene, handles, material);
+            r.set("base_color_texture", color.texture, color.sampler);
+            r.push_value(alpha_test(material));
+            r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
+        }
+    }
+}
+
+void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
+    const std::vector<CasterKind> kinds = caster_kinds(input.scene);
+    input.graph.add_pass(
+        "planar: casters",
+        [&](PassBuilder& pass) {
+            pass.color(image, Load::keep);
+            pass.depth_read_only(input.samples.depth);
+            pass.indices(input.handles.indices);
+            pass.storage_read(input.handles.positions);
+            pass.storage_read(input.handles.uvs);
+            sample_textures(pass, input.handles);
+        },
+        [handles = input.handles, scene = &input.scene, planes, kinds](Recorder& r) {
+            // A shadowed sample loses its plane's number, so that no second caster darkens it again.
+            const bool any_masked = std::find(kinds.begin(), kinds.end(), CasterKind::masked) != kinds.end();
+            for (std::uint32_t i = 0; i < planes.size(); ++i) {
+                for (const bool masked : {false, true}) {
+                    if (masked && !any_masked) {
+                        continue;
+                    }
+                    r.bind(caster_pipeline(masked));
+                    r.stencil_reference(i + 1);
+                    r.index_buffer(handles.indices);
+                    r.set("Positions", handles.positions);
+                    r.set("Uvs", handles.uvs);
+                    r.set_value("u", planes[i]);
+                    r.set("base_color_texture", handles.white);
+                    r.push_value(AlphaTest{});
+                    draw_casters(r, *scene, handles, kinds, masked);
+                }
+            }
+        });
+}
+
+Visibility add_planar(const FrameInput& input, const Recipe& recipe) {
+    const auto found = receiver_planes(input.scene, recipe.of<GnPlanarParams>("planar"));
+    const std::vector<GnPlanarFrame> planes = lit_planes(input, *found);
+    const TextureHandle image = input.graph.create(TextureDesc{.name = "visibility",
+                                                               .format = VK_FORMAT_R32_SFLOAT,
+                                                               .width = input.samples.width,
+                                                               .height = input.samples.height});
+    add_receivers(input, planes, image);
+    add_casters(input, planes, image);
+    return {image};
+}
+
+std::string refuse_curved(const Scene& scene, const Light&, const Recipe& recipe) {
+    const auto params = recipe.of<GnPlanarParams>("planar");
+    const auto found = receiver_planes(scene, params);
+    return found->planes.empty()
+               ? fmt::format(
+                     "planar needs a flat receiver of at least {:.3g} % of the scene's surface, and the largest in "
+                     "'{}' has {:.3g} %: lower planar.min_area or take volumes",
+                     100.0 * static_cast<double>(params.min_area), scene.name, 100.0 * found->largest)
+               : "";
+}
+
+}  // namespace
+
+const Part& direct_planar() {
+    static const Part part{
+        .id = "planar",
+        .stage = Stage::direct,
+        .title = "Planar shadows",
+        .citation = "Bli88",
+        .lights = all_lights,
+        .features = {Feature::depth32_stencil8},
+        .params = param_table<GnPlanarParams>({
+            GN_PARAM(GnPlanarParams, planes, integer, 1, 64, "",
+                     "More flat receivers get shadows, each for one more drawing of all casters."),
+            GN_PARAM(GnPlanarParams, min_area, real, 0, 1, "of the scene's surface",
+                     "Smaller flat parts stay without shadow."),
+            GN_PARAM(GnPlanarParams, tolerance, real, 1e-7, 1e-2, "of the scene's diagonal",
+                     "Rougher planes receive; what stands lower than this above one casts nothing."),
+        }),
+        .params_type = "GnPlanarParams",
+        .glsl = "shadow/direct/planar/planar.glsl",
+        .add_direct = add_planar,
+        .refuses = refuse_curved,
+    };
+    return part;
+}
+
+}  // namespace gn::parts

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
+// [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
+// [KKJ08] Departs from it: silhouettes are found by a compute pass; a component that bounds a solid keeps the cheaper
+// form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
+// (volumes.md).
+//
+// Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_stencil.cpp.
+#include "shadow/direct/volumes/volumes_passes.h"
+
+namespace gn::parts {
+
+namespace {
+
+Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
+    const auto params = recipe.of<GnVolumesParams>("volumes");
+    const VolumeBuffers buffers = import_volume_buffers(input, params);
+    add_facing(input, buffers);
+    add_silhouettes(input, buffers);
+    add_stencil(input, buffers);
+    return add_stencil_resolve(input);
+}
+
+}  // namespace
+
+const Part& direct_volumes() {
+    static const Part part{
+        .id = "volumes",
+        .stage = Stage::direct,
+        .title = "Shadow volumes, z-fail",
+        .citation = "EK02",
+        .lights = all_lights,
+        .features = {Feature::depth32_stencil8},
+        .params = param_table<GnVolumesParams>({
+            GN_CHOICE(GnVolumesParams, masked,
+                      "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),
+            GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
+                     "Solids cast with the half of their surface that light meets first; off counts every triangle."),
+            GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",
+                     "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
+        }),
+        .params_type = "GnVolumesParams",
+        .glsl = "shadow/direct/volumes/volumes.glsl",
+        .add_direct = add_volumes,
+    };
+    return part;
+}
+
+}  // namespace gn::parts

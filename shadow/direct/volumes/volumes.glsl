@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002. [EK02]
+// Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008. [KKJ08]
+//
+// The formulas of the volumes; they compile as GLSL and as C++. Define GN_VOLUMES_DOUBLE where shaders have 64-bit floats.
+#ifndef GN_SHADOW_DIRECT_VOLUMES_GLSL
+#define GN_SHADOW_DIRECT_VOLUMES_GLSL
+
+#include "shadow/direct/volumes/volumes.h"
+
+#ifdef __cplusplus
+#define GN_VOLUMES_VEC3 glm::dvec3
+#define GN_VOLUMES_REAL double
+#elif defined(GN_VOLUMES_DOUBLE)
+#define GN_VOLUMES_VEC3 dvec3
+#define GN_VOLUMES_REAL double
+#else
+#define GN_VOLUMES_VEC3 vec3
+#define GN_VOLUMES_REAL float
+#endif
+
+// On which side of the triangle's plane the light is: 1 before its front (counter-clockwise), -1 behind, 0 in the plane.
+// With 64 bits the differences of the coordinates are exact and the sign errs only where the light is in the plane.
+GN_FN int gn_volumes_side(vec3 a_ws, vec3 b_ws, vec3 c_ws, vec4 light_ws) {
+    vec3 l_ws = vec3(light_ws);
+    if (light_ws.w > 0.0f && (l_ws == a_ws || l_ws == b_ws || l_ws == c_ws)) {
+        return 0;
+    }
+    GN_VOLUMES_VEC3 a = GN_VOLUMES_VEC3(a_ws);
+    GN_VOLUMES_VEC3 n = cross(GN_VOLUMES_VEC3(b_ws) - a, GN_VOLUMES_VEC3(c_ws) - a);
+    GN_VOLUMES_VEC3 to_light = GN_VOLUMES_VEC3(l_ws) - a * GN_VOLUMES_REAL(light_ws.w);
+    GN_VOLUMES_REAL height = dot(n, to_light);
+    return height > GN_VOLUMES_REAL(0) ? 1 : (height < GN_VOLUMES_REAL(0) ? -1 : 0);
+}
+
+// How often the triangle bounds the volume: 1 as wound, -1 turned over, 0 not at all. Turned so, it faces the light.
+GN_FN int gn_volumes_multiplicity(int side, int form) {
+    if (form == GN_VOLUMES_ANY) {
+        return side;
+    }
+    if (form == GN_VOLUMES_FRONT) {
+        return side > 0 ? 1 : 0;
+    }
+    return form == GN_VOLUMES_BACK && side < 0 ? -1 : 0;
+}
+
+// Where the light pushes a point to: infinitely far away, a direction with w = 0. [EK02] section 3.2
+GN_FN vec4 gn_volumes_extrude(vec3 p_ws, vec4 light_ws) {
+    return vec4(p_ws * light_ws.w - vec3(light_ws), 0.0f);
+}
+
+#endif

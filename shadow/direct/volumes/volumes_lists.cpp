@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
+// [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
+// [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
+#include "shadow/direct/stage.h"
+#include "shadow/direct/volumes/volumes_passes.h"
+
+#include <map>
+
+namespace gn {
+
+namespace {
+
+constexpr const char* facing_text = R"(
+#ifdef GN_DOUBLE
+#define GN_VOLUMES_DOUBLE
+#endif
+#include "shadow/direct/volumes/volumes.glsl"
+layout(local_size_x = 64) in;
+layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
+layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
+layout(binding = 3, scalar) readonly buffer Owners { uint owners[]; };
+layout(binding = 4, scalar) readonly buffer Forms { uint forms[]; };
+layout(binding = 5, scalar) writeonly buffer Multiplicity { int multiplicity[]; };
+layout(binding = 6, scalar) writeonly buffer Caps { uint caps[]; };
+layout(binding = 7, scalar) buffer Draws { uint draws[]; };
+void main() {
+    uint t = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+    // One instance of each of the five draws.
+    if (t < 5u) {
+        draws[4u * t + 1u] = 1u;
+    }
+    if (t >= u.frame.triangles) {
+        return;
+    }
+    // Turn the triangle to the light.
+    uint owner = owners[t];
+    int m = 0;
+    if (owner != ~0u) {
+        int side = gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]],
+                                   positions[indices[3u * t + 2u]], u.frame.light_ws);
+        m = gn_volumes_multiplicity(side, int(forms[owner >> 1]));
+    }
+    multiplicity[t] = m;
+    if (m == 0) {
+        return;
+    }
+    // List its caps: those turned as wound from the front of the list, the others from its end.
+    bool masked = (owner & 1u) != 0u;
+    uint first = masked ? u.frame.opaque_triangles : 0u;
+    uint end = masked ? u.frame.triangles : u.frame.opaque_triangles;
+    uint command = 1u + (masked ? 2u : 0u) + (m < 0 ? 1u : 0u);
+    uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
+    uint slot = atomicAdd(draws[4u * command], corners) / corners;
+    caps[m > 0 ? first + slot : end - 1u - slot] = t;
+}
+)";
+
+constexpr const char* silhouette_text = R"(
+#include "shadow/direct/volumes/volumes.h"
+layout(local_size_x = 64) in;
+layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
+layout(binding = 1, scalar) readonly buffer First { uint first[]; };
+layout(binding = 2, scalar) readonly buffer Around { uint around[]; };
+layout(binding = 3, scalar) readonly buffer Multiplicity { int multiplicity[]; };
+layout(binding = 4, scalar) writeonly buffer Sides { uint sides[]; };
+layout(binding = 5, scalar) buffer Draws { uint draws[]; };
+void main() {
+    uint edge = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+    if (edge >= u.frame.edges) {
+        return;
+    }
+    // Sum the directions in which the edge's triangles run through it, each turned to the light.
+    int sum = 0;
+    uint end = first[edge + 1u];
+    for (uint i = first[edge]; i < end; ++i) {
+        int m = multiplicity[around[i] >> 1];
+        sum += (around[i] & 1u) != 0u ? -m : m;
+    }
+    // What does not cancel is the border of the volume: as many sides as are left over. [KKJ08] section 2
+    uint count = uint(abs(sum));
+    if (count == 0u) {
+        return;
+    }
+    uint slot = atomicAdd(draws[0], count * u.frame.corners) / u.frame.corners;
+    for (uint i = 0u; i < count; ++i) {
+        sides[slot + i] = edge * 2u + (sum < 0 ? 1u : 0u);
+    }
+}
+)";
+
+void dispatch_all(Recorder& r, std::uint32_t count) {
+    const std::uint32_t groups = std::max((count + 63) / 64, 1U), across = std::min(groups, 32768U);
+    r.dispatch(across, (groups + across - 1) / across);
+}
+
+template <class T>
+Buffer upload(Device& device, const char* name, const std::vector<T>& values) {
+    return upload_buffer(
+        device, {.name = name, .bytes = values.size() * sizeof(T), .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
+        std::as_bytes(std::span(values)));
+}
+
+// Which triangles cast, and which of them wear a mask.
+struct Casters {
+    std::vector<std::uint8_t> casts, masked;
+};
+Casters casters(const Scene& scene, bool skip_masked) {
+    const std::vector<CasterKind> kinds = caster_kinds(scene);
+    Casters found{std::vector<std::uint8_t>(scene.triangles.size(), 0),
+                  std::vector<std::uint8_t>(scene.triangles.size(), 0)};
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const bool masked = kinds[i] == CasterKind::masked;
+        const auto first = scene.objects[i].first_triangle, end = first + scene.objects[i].triangle_count;
+        std::fill(found.casts.begin() + first, found.casts.begin() + end,
+                  kinds[i] == CasterKind::opaque || (masked && !skip_masked) ? 1 : 0);
+        std::fill(found.masked.begin() + first, found.masked.begin() + end, masked ? 1 : 0);
+    }
+    return found;
+}
+
+EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, bool skip_masked, std::uint64_t key) {
+    static GeometryCache<EdgeList> cache;
+    EdgeBuffers made;
+    const Casters found = casters(scene, skip_masked);
+    made.list = cache.get(key, [&] { return build_edges(scene.positions_ws, scene.triangles, found.casts); });
+
+    // A triangle's owner is its component, its lowest bit the mask.
+    std::vector<std::uint32_t> owners(scene.triangles.size());
+    for (std::size_t t = 0; t < owners.size(); ++t) {
+        const std::uint32_t component = made.list->component_of[t];
+        owners[t] = component == EdgeList::no_component ? ~0U : component * 2 + found.masked[t];
+        made.opaque_triangles += found.masked[t] == 0 ? 1 : 0;
+    }
+    made.edges = upload(device, "volume edges", made.list->edges);
+    made.first = upload(device, "volume edge starts", made.list->first);
+    made.around = upload(device, "volume edge triangles", made.list->around);
+    made.owners = upload(device, "volume triangle owners", owners);
+    return made;
+}
+
+// The passes of a graph keep the buffers; the lights of one frame find them here as long as they live.
+std::shared_ptr<const EdgeBuffers> edge_buffers(Device& device, const Scene& scene, bool skip_masked) {
+    static std::mutex mutex;
+    static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const EdgeBuffers>> alive;
+    std::uint64_t key = skip_masked ? 1 : 0;
+    for (const CasterKind kind : caster_kinds(scene)) {
+        key = key * 31 + static_cast<std::uint64_t>(kind);
+    }
+    key = geometry_hash(scene, key);
+    const std::lock_guard lock(mutex);
+    std::erase_if(alive, [](const auto& entry) { return entry.second.expired(); });
+    auto& entry = alive[{&device, key}];
+    std::shared_ptr<const EdgeBuffers> buffers = entry.lock();
+    if (!buffers) {
+        buffers = std::make_shared<const EdgeBuffers>(make_edge_buffers(device, scene, skip_masked, key));
+        entry = buffers;
+    }
+    return buffers;
+}
+
+}  // namespace
+
+VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesParams& params) {
+    FrameGraph& graph = input.graph;
+    VolumeBuffers buffers{.scene = edge_buffers(input.device, input.scene, params.masked == GN_VOLUMES_SKIP)};
+    const EdgeBuffers& scene = *buffers.scene;
+    buffers.edges = graph.import(scene.edges);
+    buffers.first = graph.import(scene.first);
+    buffers.around = graph.import(scene.around);
+    buffers.owners = graph.import(scene.owners);
+
+    // Decide for each component how it casts; a buffer is never empty.
+    const GnLight& light = input.light().shape;
+    buffers.forms = component_forms(scene.list->components, light, params, &input.samples.constants.cs_from_ws);
+    buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
+    const vec4 light_ws = light_point_ws(light);
+    buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
+                     .light_ws = light_ws,
+                     .triangles = static_cast<uint>(input.scene.triangles.size()),
+                     .edges = static_cast<uint>(scene.list->edges.size()),
+                     .opaque_triangles = scene.opaque_triangles,
+                     .corners = light_ws.w > 0.0F ? 6U : 3U};
+
+    // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.
+    const VkDeviceSize triangles = buffers.frame.triangles;
+    buffers.multiplicity = graph.create(BufferDesc{.name = "volume multiplicities", .bytes = triangles * 4});
+    buffers.caps = graph.create(BufferDesc{.name = "volume caps", .bytes = triangles * 4});
+    buffers.sides = graph.create(BufferDesc{.name = "volume sides", .bytes = scene.list->around.size() * 4});
+    buffers.draws = graph.create(BufferDesc{.name = "volume draws", .bytes = 5 * sizeof(VkDrawIndirectCommand)});
+    return buffers;
+}
+
+void add_facing(const FrameInput& input, const VolumeBuffers& buffers) {
+    input.graph.add_pass(
+        "volumes: empty lists", [&](PassBuilder& pass) { pass.copy_to(buffers.draws); },
+        [draws = buffers.draws](Recorder& r) { r.fill(draws, 0); });
+    const std::string text =
+        std::string(input.device.has(Feature::shader_float64) ? "#define GN_DOUBLE\n" : "") + facing_text;
+    input.graph.add_pass(
+        "volumes: facing",
+        [&](PassBuilder& pass) {
+            for (const BufferHandle read : {input.handles.positions, input.handles.indices, buffers.owners}) {
+                pass.storage_read(read);
+            }
+            for (const BufferHandle write : {buffers.multiplicity, buffers.caps, buffers.draws}) {
+                pass.storage_write(write);
+            }
+        },
+        [buffers, handles = input.handles, text](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "volume-facing.comp", text}});
+            r.set_value("u", buffers.frame);
+            r.set("Positions", handles.positions);
+            r.set("Indices", handles.indices);
+            r.set("Owners", buffers.owners);
+            r.set_bytes("Forms", std::as_bytes(std::span(buffers.forms)));
+            r.set("Multiplicity", buffers.multiplicity);
+            r.set("Caps", buffers.caps);
+            r.set("Draws", buffers.draws);
+            dispatch_all(r, buffers.frame.triangles);
+        });
+}
+
+void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers) {
+    input.graph.add_pass(
+        "volumes: silhouettes",
+        [&](PassBuilder& pass) {
+            for (const BufferHandle read : {buffers.first, buffers.around, buffers.multiplicity}) {
+                pass.storage_read(read);
+            }
+            pass.storage_write(buffers.sides);
+            pass.storage_write(buffers.draws);
+        },
+        [buffers](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "volume-silhouettes.comp", silhouette_text}});
+            r.set_value("u", buffers.frame);
+            r.set("First", buffers.first);
+            r.set("Around", buffers.around);
+            r.set("Multiplicity", buffers.multiplicity);
+            r.set("Sides", buffers.sides);
+            r.set("Draws", buffers.draws);
+            dispatch_all(r, buffers.frame.edges);
+        });
+}
+
+}  // namespace gn

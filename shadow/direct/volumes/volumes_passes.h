@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The passes of one light's shadow volumes, in order.
+#pragma once
+
+#include "shadow/direct/edges.h"
+#include "shadow/direct/volumes/volumes.h"
+#include "shadow/recipe.h"
+
+#include <memory>
+
+namespace gn {
+
+/// What lives as long as the frame's graph: a scene's edges on the GPU.
+struct EdgeBuffers {
+    std::shared_ptr<const EdgeList> list;
+    std::uint32_t opaque_triangles = 0;
+    Buffer edges, first, around;  ///< as EdgeList
+    Buffer owners;                ///< per triangle: component * 2 + 1 when masked; ~0 when it casts nothing
+};
+
+struct VolumeBuffers {
+    std::shared_ptr<const EdgeBuffers> scene;  ///< kept alive by the passes that use it
+    std::vector<std::uint32_t> forms;          ///< per component: GN_VOLUMES_*
+    GnVolumesFrame frame;
+    BufferHandle edges, first, around, owners;
+    BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1
+    BufferHandle caps;          ///< lists of triangles: opaque from both ends, then masked from both ends, by sign
+    BufferHandle sides;         ///< list of edge * 2 + 1 when turned over
+    BufferHandle draws;         ///< VkDrawIndirectCommand: sides, then the caps opaque +, opaque -, masked +, masked -
+};
+
+/// The scene's edges (built once a geometry, uploaded once a graph) and this light's lists.
+VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesParams& params);
+/// How each component casts for this light: GN_VOLUMES_* per component. `cs_from_ws` null: the view culls nothing.
+std::vector<std::uint32_t> component_forms(std::span<const Component> components, const GnLight& light,
+                                           const GnVolumesParams& params, const mat4* cs_from_ws);
+/// Turns every triangle to the light and lists the caps.
+void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
+/// Sums the triangles around every edge and lists the sides.
+void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
+/// Counts in the stencil how many volumes hold each view sample.
+void add_stencil(const FrameInput& input, const VolumeBuffers& buffers);
+/// V = 1 where the count is zero and the sample counts for the light.
+Visibility add_stencil_resolve(const FrameInput& input);
+
+}  // namespace gn

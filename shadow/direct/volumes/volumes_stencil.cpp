@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
+// [EK02] The raster passes of a light: counting in the stencil, and what the count says.
+#include "shadow/direct/volumes/volumes_passes.h"
+
+namespace gn {
+
+namespace {
+
+// Both vertex shaders clip at the near plane themselves: depth clamping, which keeps what lies beyond the far plane,
+// turns the fixed clipping off.
+constexpr const char* side_text = R"(
+#include "shadow/direct/volumes/volumes.glsl"
+layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
+layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 2, scalar) readonly buffer Edges { uvec2 edges[]; };
+layout(binding = 3, scalar) readonly buffer Sides { uint sides[]; };
+invariant gl_Position;
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+void main() {
+    uint side = sides[uint(gl_VertexIndex) / u.frame.corners];
+    uint corner = uint(gl_VertexIndex) % u.frame.corners;
+    // From outside the side is a, a at infinity, b at infinity, b; the sun has one point at infinity for both.
+    uvec2 edge = edges[side >> 1];
+    edge = (side & 1u) != 0u ? edge.yx : edge;
+    bool second = u.frame.corners == 3u ? corner == 2u : corner == 2u || corner >= 4u;
+    bool far = u.frame.corners == 3u ? corner == 1u : corner == 1u || corner == 2u || corner == 4u;
+    vec3 p_ws = positions[second ? edge.y : edge.x];
+    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
+    gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+}
+)";
+
+constexpr const char* cap_text = R"(
+#include "shadow/direct/volumes/volumes.glsl"
+layout(constant_id = 0) const int MASKED = 0;
+layout(constant_id = 1) const int TURNED = 0;
+layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
+layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
+layout(binding = 3, scalar) readonly buffer Caps { uint caps[]; };
+invariant gl_Position;
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+void main() {
+    uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
+    uint slot = uint(gl_VertexIndex) / corners;
+    uint corner = uint(gl_VertexIndex) % corners;
+    uint first = MASKED != 0 ? u.frame.opaque_triangles : 0u;
+    uint end = MASKED != 0 ? u.frame.triangles : u.frame.opaque_triangles;
+    uint t = caps[TURNED != 0 ? end - 1u - slot : first + slot];
+    // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
+    bool far = corner >= 3u;
+    vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
+    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
+    gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+}
+)";
+
+constexpr const char* resolve_text = R"(
+#include "shadow/scene/light.h"
+layout(binding = 0, scalar) uniform Light { GnLight light; } u;
+layout(binding = 1) uniform sampler2D position_ws;
+layout(binding = 2) uniform sampler2D normal_ws;
+layout(location = 0) out float visibility;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 p_ws = texelFetch(position_ws, pixel, 0);
+    bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, texelFetch(normal_ws, pixel, 0).xyz);
+    visibility = counted ? 1.0 : 0.0;
+}
+)";
+
+VkStencilOpState stencil(VkCompareOp compare, VkStencilOp depth_fail, VkStencilOp pass) {
+    return {.failOp = VK_STENCIL_OP_KEEP,
+            .passOp = pass,
+            .depthFailOp = depth_fail,
+            .compareOp = compare,
+            .compareMask = 0xFF,
+            .writeMask = 0xFF,
+            .reference = 0};
+}
+
+// Z-fail: what lies at or behind the sample counts, +1 where a ray leaves the volume, -1 where it enters. Depth is
+// reversed, so that a fragment passes when its depth is GREATER; opaque caps never pass (volumes.md derives both).
+RasterDesc volume_pipeline(const char* name, const char* text, VkCompareOp compare, bool turned) {
+    const auto leave = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_INCREMENT_AND_WRAP, VK_STENCIL_OP_KEEP);
+    const auto enter = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_DECREMENT_AND_WRAP, VK_STENCIL_OP_KEEP);
+    RasterDesc desc;
+    desc.vertex = {ShaderKind::vertex, name, text};
+    desc.depth_test = desc.depth_clamp = true;
+    desc.depth_compare = compare;
+    desc.stencil = turned ? StencilOps{leave, enter} : StencilOps{enter, leave};
+    return desc;
+}
+
+RasterDesc cap_pipeline(bool masked, bool turned) {
+    RasterDesc desc =
+        volume_pipeline("volume-cap.vert", cap_text, masked ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_NEVER, turned);
+    desc.constants = {{0, masked ? 1U : 0U}, {1, turned ? 1U : 0U}};
+    return desc;
+}
+
+RasterDesc stencil_clear() {
+    const auto zero = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_ZERO, VK_STENCIL_OP_ZERO);
+    RasterDesc desc;
+    desc.vertex = fullscreen_vertex_shader();
+    desc.stencil = StencilOps{zero, zero};
+    return desc;
+}
+
+}  // namespace
+
+void add_stencil(const FrameInput& input, const VolumeBuffers& buffers) {
+    input.graph.add_pass(
+        "volumes: stencil",
+        [&](PassBuilder& pass) {
+            pass.depth_read_only(input.samples.depth);
+            for (const BufferHandle read :
+                 {input.handles.positions, input.handles.indices, buffers.edges, buffers.sides, buffers.caps}) {
+                pass.storage_read(read);
+            }
+            pass.indirect(buffers.draws);
+        },
+        [buffers, handles = input.handles](Recorder& r) {
+            // Forget what another light has counted.
+            r.bind(stencil_clear());
+            r.draw(3);
+            const auto bind = [&](const RasterDesc& desc) {
+                r.bind(desc);
+                r.set_value("u", buffers.frame);
+                r.set("Positions", handles.positions);
+                r.set("Indices", handles.indices);
+                r.set("Edges", buffers.edges);
+                r.set("Sides", buffers.sides);
+                r.set("Caps", buffers.caps);
+            };
+            bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_GREATER, false));
+            r.draw_indirect(buffers.draws, 0);
+            for (const unsigned list : {0U, 1U, 2U, 3U}) {
+                bind(cap_pipeline(list >= 2, list % 2 == 1));
+                r.draw_indirect(buffers.draws, (list + 1) * sizeof(VkDrawIndirectCommand));
+            }
+        });
+}
+
+Visibility add_stencil_resolve(const FrameInput& input) {
+    const ViewSamples& samples = input.samples;
+    const TextureHandle image = input.graph.create(TextureDesc{
+        .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
+    input.graph.add_pass(
+        "volumes: resolve",
+        [&](PassBuilder& pass) {
+            pass.color(image, Load::clear);
+            pass.depth_read_only(samples.depth);
+            pass.sample(samples.position);
+            pass.sample(samples.normal);
+        },
+        [samples, light = input.light().shape](Recorder& r) {
+            const auto outside = stencil(VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP);
+            RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-resolve.frag", resolve_text});
+            desc.stencil = StencilOps{outside, outside};
+            r.bind(desc);
+            r.set_value("u", light);
+            r.set("position_ws", samples.position);
+            r.set("normal_ws", samples.normal);
+            r.draw(3);
+        });
+    return {image};
+}
+
+}  // namespace gn
