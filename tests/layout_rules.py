@@ -65,6 +65,16 @@ def comments_of(text):
             yield number, found[1]
 
 
+def head_of(text):
+    """The comment at a file's head as one line, each statement (`Based on:`, `Also here:`) after a newline of its own."""
+    lines = []
+    for line in text.splitlines():
+        if not line.startswith("//"):
+            break
+        lines.append(line[2:].strip())
+    return re.sub(r" (?=(?:Based on|Departs from it|Also here|Stands on): )", "\n", " ".join(lines))
+
+
 def part_shape(tree):
     """A part folder holds the five files of its siblings; others are announced in its .cpp: `// Also here: a.comp`."""
     complaints = []
@@ -78,7 +88,7 @@ def part_shape(tree):
         own = {folder + ending for ending in (".h", ".glsl", ".cpp", "_test.cpp", ".md")}
         announced = set()
         if f"{folder}.cpp" in files:
-            for line in re.findall(r"^// Also here: (.*)$", tree.text(f"{where}/{folder}.cpp"), re.M):
+            for line in re.findall(r"^Also here: (.*)$", head_of(tree.text(f"{where}/{folder}.cpp")), re.M):
                 announced |= set(re.findall(r"[\w]+\.\w+", line))
         for extra in sorted(set(files) - own - announced):
             complaints.append(f"{where}: {extra} is neither one of the five files nor announced by "
@@ -129,7 +139,8 @@ def parts_are_strangers(tree):
     for stage, folder, files in tree.parts():
         own = f"shadow/{stage}/{folder}/"
         text = tree.text(f"{own}{folder}.cpp") if f"{folder}.cpp" in files else ""
-        allowed = tuple(f"{path}/" for path in re.findall(r"^// Stands on: (shadow/\w+/\w+)\b", text, re.M)) + (own,)
+        allowed = tuple(f"{path}/" for line in re.findall(r"^Stands on: (.*)$", head_of(text), re.M)
+                        for path in re.findall(r"shadow/\w+/\w+", line)) + (own,)
         for file in files:
             name = own + file
             if pathlib.Path(name).suffix not in SOURCES or is_test(name):
@@ -203,8 +214,8 @@ def citations(tree):
             complaints.append(f"{where}/{folder}.cpp: sets no citation, a key of docs/references.bib")
         complaints += [f"{where}/{folder}.cpp: cites {key}, which docs/references.bib lacks"
                        for key in keys if key not in known]
-        heads = "".join(tree.text(f"{where}/{file}") for file in files if pathlib.Path(file).suffix in SOURCES)
-        based = re.findall(rf"^// Based on: .*?\[({KEY})\]", heads.replace("\n// ", " \n// "), re.M)
+        heads = [head_of(tree.text(f"{where}/{file}")) for file in files if pathlib.Path(file).suffix in SOURCES]
+        based = [key for head in heads for key in re.findall(rf"^Based on: .*?\[({KEY})\]", head, re.M)]
         if not based:
             complaints.append(f"{where}: no file begins with '// Based on: Authors. Title. Venue Year. [Key]'")
     return complaints
@@ -251,16 +262,18 @@ def machine_paths(tree):
 
 
 def pages_exist(tree):
-    """A page that a comment or another page points to is there."""
+    """A page that a comment names, or that another page names with its folder or links to, is there."""
     known = {pathlib.PurePosixPath(name).name for name in tree.having({".md"})} | {"catalogue.md"}
+    named = re.compile(r"(?<![\w<>*/])(?:[\w.-]+/)*([A-Za-z][\w-]*\.md)\b")
+    linked = re.compile(r"(?:\]\(|/)([A-Za-z][\w-]*\.md)\b")
     complaints = []
-    for name in tree.having(SOURCES | {".md"}):
-        lines = (comment for _, comment in comments_of(tree.text(name))) if not name.endswith(".md") \
-            else tree.text(name).splitlines()
-        for line in lines:
+    for name in tree.having(SOURCES):
+        for _, comment in comments_of(tree.text(name)):
             complaints += [f"{name}: points to {page}, which is not in the tree"
-                           for page in re.findall(r"(?<![\w<>*/])(?:[\w.-]+/)*([A-Za-z][\w-]*\.md)\b", line)
-                           if page not in known]
+                           for page in named.findall(comment) if page not in known]
+    for name in tree.having({".md"}):
+        complaints += [f"{name}: points to {page}, which is not in the tree"
+                       for page in linked.findall(tree.text(name)) if page not in known]
     return complaints
 
 

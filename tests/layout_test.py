@@ -6,6 +6,7 @@
 """
 
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -113,6 +114,51 @@ class Breaches(unittest.TestCase):
         self.assertEqual({rule for rule, _, _ in BREACHES}, set(rules.ALL))
 
 
+class NewPart(unittest.TestCase):
+    """tools/new_part stamps parts that keep every rule and compile, and refuses what could not become one."""
+
+    def stamp(self, root, *arguments):
+        return subprocess.run([sys.executable, str(ROOT / "tools" / "new_part"), *arguments, "--root", root],
+                              capture_output=True, text=True, check=False)
+
+    def test_stamped_parts_keep_the_rules_and_compile(self):
+        with tempfile.TemporaryDirectory() as root:
+            make_tree(root, {})
+            for stage in rules.STAGES:
+                done = self.stamp(root, stage, f"trial-{stage}", "--key", "Wil78")
+                self.assertEqual(done.returncode, 0, done.stderr)
+            # What the stamped files include is the real tree's; every other rule must hold in the small one.
+            stamped = rules.Tree(root)
+            for rule in set(rules.ALL) - {rules.includes_resolve}:
+                self.assertEqual(rule(stamped), [], rule.__name__)
+            for stage in rules.STAGES:
+                self.compiles(root, f"shadow/{stage}/trial_{stage}/trial_{stage}.cpp")
+
+    def compiles(self, root, source):
+        flags = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wno-missing-field-initializers", "-Werror"]
+        flags += [f"-DGLM_FORCE_{name}" for name in ("DEPTH_ZERO_TO_ONE", "RADIANS")] + ["-DGLM_ENABLE_EXPERIMENTAL"]
+        done = subprocess.run(["g++", *flags, f"-I{ROOT}", f"-I{root}", str(pathlib.Path(root) / source)],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_an_unset_citation_is_noticed(self):
+        with tempfile.TemporaryDirectory() as root:
+            make_tree(root, {})
+            self.stamp(root, "lookup", "trial")
+            self.assertTrue(any("Key00" in complaint for complaint in rules.citations(rules.Tree(root))))
+
+    def test_refusals_are_one_sentence_and_leave_nothing(self):
+        wrong = (("lookup", "Soft2"), ("lookup", "a_b"), ("lookup", "../up"), ("lookup", "a--b"), ("lookup", "auto"),
+                 ("lookup", "soft"), ("map", "soft"), ("shading", "x"), ("lookup", "x", "--key", "Nope00"))
+        with tempfile.TemporaryDirectory() as root:
+            before = make_tree(root, {}).files
+            for arguments in wrong:
+                done = self.stamp(root, *arguments)
+                self.assertEqual(done.returncode, 1, arguments)
+                self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+            self.assertEqual(rules.Tree(root).files, before)
+
+
 def here_test(rule):
     def test(self):
         complaints = rule(rules.Tree(ROOT))
@@ -137,7 +183,7 @@ for index, (checked, changes, expected) in enumerate(BREACHES):
 
 
 def main():
-    suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case) for case in (Here, Breaches))
+    suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case) for case in (Here, Breaches, NewPart))
     result = unittest.TextTestRunner(stream=sys.stdout, verbosity=0).run(suite)
     print("largest files: " + ", ".join(f"{name} {lines}" for lines, name in rules.largest_files(rules.Tree(ROOT), 10)))
     failed = len(result.failures) + len(result.errors)
