@@ -11,7 +11,7 @@
 namespace gn {
 
 struct TruthOptions {
-    int samples = 256;      ///< of the light per view sample; rounded up to a power of two
+    int samples = 256;  ///< of the light per view sample; rounded up to a power of two
     uint seed = 0;
     int threads = 0;        ///< 0: all; changes nothing in the result
     bool integral = false;  ///< also C eq. 1.3: sum of V x cosine-weighted radiance over the light
@@ -21,8 +21,9 @@ struct TruthResult {
     std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
     std::vector<float> standard_error;  ///< per sample, of `visibility`
     std::vector<std::uint8_t> counted;  ///< 1 where gn_counted holds and a surface is seen
-    std::vector<float> irradiance;      ///< with options.integral: unshadowed-geometry integral C eq. 1.3, same units as the light's irradiance; else empty
-    double mean_standard_error = 0;     ///< over counted samples: of the mean
+    std::vector<float>
+        irradiance;  ///< with options.integral: unshadowed-geometry integral C eq. 1.3, same units as the light's irradiance; else empty
+    double mean_standard_error = 0;  ///< mean of standard_error over counted samples
     double seconds = 0;
 };
 
@@ -34,8 +35,9 @@ class Truth {
     Truth(const Truth&) = delete;
     Truth& operator=(const Truth&) = delete;
     /// position_ws (w = 1: surface) and normal_ws per view sample. progress(0..1), when given, is called from one thread.
-    [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const GnLight& light,
-                                    const TruthOptions& options, const std::function<void(double)>& progress = {}) const;
+    [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
+                                    const GnLight& light, const TruthOptions& options,
+                                    const std::function<void(double)>& progress = {}) const;
     /// One exact question, for tests: is the segment (p, q) blocked?
     [[nodiscard]] bool blocked(dvec3 p_ws, dvec3 q_ws) const;
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Based on: Peter Shirley, Kenneth Chiu. A Low Distortion Map Between Disk and Square. JGT 1997. [SC97]
+//
+// Points of a light as one receiver sees it, from points of the unit square, area-preserving so that the sampler's
+// stratification survives:
+//
+//   directional  uniform over the cone of angular_radius          rectangle  uniform over its area
+//   spot         uniform over the disc across its axis            point      uniform over the cone its sphere subtends
+//
+// Distances end at the light's surface: for a point light on the near side of its sphere. From inside that sphere
+// every direction meets it, so all directions are drawn.
+#pragma once
+
+#include "base/math.h"
+#include "reference/truth.h"
+
+namespace gn {
+
+/// Concentric map of the square onto the unit disc. [SC97, section 3]
+inline vec2 disc_from_square(vec2 u) {
+    const float a = 2.0F * u.x - 1.0F;
+    const float b = 2.0F * u.y - 1.0F;
+    const bool wide = std::abs(a) > std::abs(b);
+    const float radius = wide ? a : b;
+    const float ratio = radius != 0.0F ? (wide ? b : a) / radius : 0.0F;
+
+    // Sine and cosine of pi/4 * ratio, by their series: the first term left out is under 2e-9.
+    const float x = 0.25F * pi * ratio;
+    const float x2 = x * x;
+    const float sine = x * (1.0F + x2 * (-1.0F / 6 + x2 * (1.0F / 120 + x2 * (-1.0F / 5040 + x2 * (1.0F / 362880)))));
+    const float cosine =
+        1.0F + x2 * (-0.5F + x2 * (1.0F / 24 + x2 * (-1.0F / 720 + x2 * (1.0F / 40320 - x2 * (1.0F / 3628800)))));
+    return radius * (wide ? vec2(cosine, sine) : vec2(sine, cosine));
+}
+
+/// One light as seen from one receiver: constants first, then cheap points.
+class LightSampler {
+  public:
+    LightSampler(const GnLight& light, vec3 p_ws);
+
+    /// Whether the light has no extent seen from here: one exact ray replaces all samples.
+    [[nodiscard]] bool single() const { return single_; }
+    [[nodiscard]] LightPoint at(vec2 u) const { return flat_ ? on_shape(u) : in_cone(u); }
+    /// The point of a light without extent.
+    [[nodiscard]] LightPoint centre() const { return flat_ ? towards(centre_from_p_) : LightPoint{axis_, distance_}; }
+    /// What the point adds to the irradiance of a surface with normal n where it is visible, divided by the density of
+    /// the samples: the mean over samples of V times this is C eq. 1.3.
+    [[nodiscard]] float irradiance(const LightPoint& point, vec3 n_ws) const;
+
+  private:
+    [[nodiscard]] static LightPoint towards(vec3 from_p) {
+        const float distance = glm::length(from_p);
+        return {from_p / distance, distance};
+    }
+    [[nodiscard]] LightPoint on_shape(vec2 u) const {
+        const vec2 s = disc_ ? disc_from_square(u) : 2.0F * u - 1.0F;
+        return towards(centre_from_p_ + s.x * x_ + s.y * y_);
+    }
+    [[nodiscard]] LightPoint in_cone(vec2 u) const;
+
+    GnLight light_;
+    bool single_ = false;
+    bool flat_ = false;  ///< a disc or a rectangle; else a cone of directions
+    bool disc_ = false;
+    vec3 centre_from_p_{0};
+    vec3 x_{0}, y_{0};     ///< flat: half axes, metres; cone: unit
+    vec3 axis_{0};         ///< cone: unit, towards the centre
+    float height_ = 0;     ///< cone: 1 - cosine of its half angle
+    float distance_ = 0;   ///< cone: to the centre
+    bool inside_ = false;  ///< cone: p is inside the sphere
+};
+
+}  // namespace gn

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The scene as Embree sees it, with the question that the truth asks: is the open segment from p towards the light
+// blocked? Both sides of every triangle block; alpha-tested texels that are not there do not.
+//
+// Self-intersection. In exact arithmetic a ray that starts on a plane never meets that plane again, so a hit on any
+// triangle whose plane holds p is a rounding error and is rejected, at whatever distance. "Holds" is decided in double
+// precision with a tolerance of plane_ulps units of float precision at the largest coordinate of p and the triangle: the
+// vertices are rounded to float (half a unit an axis) and so is p (after it was seated on its own plane). This is
+// independent of the angle and of the scale, and needs no distance that contact shadows would pay for.
+//
+// What is left are triangles that meet p's plane at an angle, near the edge. There the origin must not sink under p's
+// plane, so it is raised along the geometric normal by origin_ulps units at its largest coordinate: rounding it moves it
+// by at most sqrt(3)/2 units. At 1 m from the world's origin this is half a micrometre.
+#pragma once
+
+#include "shadow/scene/scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gn {
+
+inline constexpr double plane_ulps = 16;
+inline constexpr double origin_ulps = 4;
+/// How far a view sample may be from its surface, for seating: interpolated positions err by units of the vertices.
+inline constexpr double seat_ulps = 64;
+/// How far before a light's surface its rays end, in units of the largest of distance and coordinates.
+inline constexpr double light_ulps = 64;
+
+/// One unit of float precision at a magnitude.
+inline double ulps_at(double count, double magnitude) {
+    return count * 0x1p-23 * magnitude;
+}
+inline double largest(dvec3 v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// A receiver's point, ready for rays.
+struct Seat {
+    dvec3 p_ws;      ///< on the plane of its triangle
+    vec3 origin_ws;  ///< a hair above it
+};
+
+class Occluders {
+  public:
+    explicit Occluders(const Scene& scene);
+    ~Occluders();
+    Occluders(const Occluders&) = delete;
+    Occluders& operator=(const Occluders&) = delete;
+
+    /// 16, 8 or 4: how many rays the machine traces at once.
+    [[nodiscard]] int width() const { return width_; }
+    /// Moves p along its normal onto the nearest triangle that faces along it, if one is within precision.
+    [[nodiscard]] Seat seat(dvec3 p_ws, dvec3 n_ws) const;
+    /// Traces a packet from one seat; afterwards tfar < 0 where something blocks. Width is 1, 4, 8 or 16.
+    template <int Width>
+    void trace(const Seat& seat, const int* valid, RTCRayNt<Width>& rays) const;
+
+  private:
+    struct Query;
+    struct SeatQuery;
+    struct Alpha;
+
+    void copy_geometry();
+    [[nodiscard]] bool coplanar(std::uint32_t triangle, dvec3 p_ws) const;
+    [[nodiscard]] bool transparent(std::uint32_t triangle, float u, float v) const;
+    static void reject(const RTCFilterFunctionNArguments* arguments);
+    static void find_seat(const RTCFilterFunctionNArguments* arguments);
+
+    const Scene& scene_;
+    RTCDevice device_ = nullptr;
+    RTCScene bvh_ = nullptr;
+    int width_ = 4;
+    std::vector<int> material_;  ///< per triangle, or -1 where it is opaque
+    double largest_coordinate_ = 0;
+};
+
+}  // namespace gn

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// Based on: Art B. Owen. Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences. MCQMC 1995. [Owe95]
+//
+// Every view sample is its own experiment: its seeds depend on the seed asked for and on its index alone, and its rays
+// are summed in the order of the sequence. So threads only decide who works when. There is no adaptive stopping, which
+// would bias the mean; the one shortcut is exact: a light without extent takes one ray.
+//
+// Standard error. The N samples are B = min(8, N) independent scrambles of the sequence's first N/B points. Each
+// scramble is a (0,m,2)-net and unbiased by itself [Owe95, section 3], so V is their mean, and the variance between
+// them divided by B is an unbiased estimate of the variance of V. (The error inside one scramble can not be estimated
+// from its own points, which are correlated.)
+#include "reference/truth.h"
+
+#include "base/error.h"
+#include "reference/light_sample.h"
+#include "reference/occluders.h"
+#include "reference/sobol.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+namespace gn {
+namespace {
+
+constexpr int most_samples = 1 << 20;
+constexpr std::uint32_t most_batches = 8;
+constexpr std::size_t tile_size = 256;  ///< view samples that a thread takes at a time
+
+/// How many samples, in how many independent scrambles.
+struct Plan {
+    std::uint32_t batches, per_batch;
+    std::uint32_t seed;
+    std::vector<std::uint32_t> second;  ///< coordinate 1 of the sequence, bit-reversed
+
+    explicit Plan(const TruthOptions& options) : seed(options.seed) {
+        if (options.samples < 1 || options.samples > most_samples) {
+            fail("{} samples are asked of the reference; valid is 1 to {}", options.samples, most_samples);
+        }
+        const std::uint32_t samples = std::bit_ceil(static_cast<std::uint32_t>(options.samples));
+        batches = std::min(most_batches, samples);
+        per_batch = samples / batches;
+        second = sobol::second_reversed_table(per_batch);
+    }
+    /// The points of one scramble for one view sample.
+    [[nodiscard]] sobol::Seeds seeds(std::size_t view_sample, std::uint32_t batch) const {
+        return sobol::Seeds(sobol::mix(sobol::mix(seed, batch), static_cast<std::uint32_t>(view_sample)));
+    }
+    [[nodiscard]] vec2 point(const sobol::Seeds& seeds, std::uint32_t i) const {
+        return {sobol::unit_from_reversed(sobol::scramble_reversed(i, seeds.first)),
+                sobol::unit_from_reversed(sobol::scramble_reversed(second[i], seeds.second))};
+    }
+};
+
+struct Estimate {
+    double visibility = 0, standard_error = 0, irradiance = 0;
+};
+
+/// Where a ray towards the light ends: a little before its surface.
+float ray_end(const LightPoint& point, float largest_origin) {
+    if (!std::isfinite(point.distance)) {
+        return point.distance;
+    }
+    return point.distance - static_cast<float>(ulps_at(light_ulps, point.distance + largest_origin));
+}
+
+template <int Width>
+void aim(RTCRayNt<Width>& rays, int lane, vec3 origin_ws, const LightPoint& point) {
+    rays.org_x[lane] = origin_ws.x;
+    rays.org_y[lane] = origin_ws.y;
+    rays.org_z[lane] = origin_ws.z;
+    rays.dir_x[lane] = point.direction_ws.x;
+    rays.dir_y[lane] = point.direction_ws.y;
+    rays.dir_z[lane] = point.direction_ws.z;
+    rays.tnear[lane] = 0.0F;
+    rays.tfar[lane] = ray_end(point, static_cast<float>(largest(dvec3(origin_ws))));
+    rays.time[lane] = 0.0F;
+    rays.mask[lane] = ~0U;
+    rays.id[lane] = 0;
+    rays.flags[lane] = 0;
+}
+
+Estimate trace_single(const Occluders& occluders, const Seat& seat, const LightSampler& sampler, vec3 n_ws) {
+    alignas(16) RTCRayNt<1> ray;
+    const LightPoint point = sampler.centre();
+    aim<1>(ray, 0, seat.origin_ws, point);
+    const int valid = -1;
+    occluders.trace<1>(seat, &valid, ray);
+    const double visible = ray.tfar[0] < 0.0F ? 0.0 : 1.0;
+    return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
+}
+
+/// The mean of the batches' means and its standard error.
+Estimate combine(std::span<const double> visible, const Plan& plan) {
+    Estimate estimate;
+    double squares = 0;
+    for (const double count : visible) {
+        const double mean = count / plan.per_batch;
+        estimate.visibility += mean / plan.batches;
+        squares += mean * mean / plan.batches;
+    }
+    if (plan.batches == 1) {
+        estimate.standard_error = 0.5;  // one yes or no: the largest standard deviation there is
+        return estimate;
+    }
+    const double variance = std::max(0.0, squares - estimate.visibility * estimate.visibility);
+    estimate.standard_error = std::sqrt(variance / (plan.batches - 1));
+    return estimate;
+}
+
+template <int Width>
+Estimate trace_area(const Occluders& occluders, const Plan& plan, std::size_t view_sample, const Seat& seat,
+                    const LightSampler& sampler, vec3 n_ws, bool integral) {
+    alignas(4 * Width) RTCRayNt<Width> rays;
+    alignas(4 * Width) std::array<int, Width> valid{};
+    std::array<std::uint32_t, Width> batch_of{};
+    std::array<float, Width> weight{};
+    std::array<double, most_batches> visible{};
+    double irradiance = 0;
+    int lane = 0;
+
+    // Add up what a full packet sees, in the order of its samples.
+    const auto flush = [&] {
+        std::fill(valid.begin(), valid.begin() + lane, -1);
+        std::fill(valid.begin() + lane, valid.end(), 0);
+        occluders.trace<Width>(seat, valid.data(), rays);
+        for (int i = 0; i < lane; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (rays.tfar[i] >= 0.0F) {
+                visible[batch_of[k]] += 1.0;
+                irradiance += static_cast<double>(weight[k]);
+            }
+        }
+        lane = 0;
+    };
+
+    // Send one ray to every point of every scramble.
+    for (std::uint32_t batch = 0; batch < plan.batches; ++batch) {
+        const sobol::Seeds seeds = plan.seeds(view_sample, batch);
+        for (std::uint32_t i = 0; i < plan.per_batch; ++i) {
+            const LightPoint point = sampler.at(plan.point(seeds, i));
+            aim<Width>(rays, lane, seat.origin_ws, point);
+            batch_of[static_cast<std::size_t>(lane)] = batch;
+            weight[static_cast<std::size_t>(lane)] = integral ? sampler.irradiance(point, n_ws) : 0.0F;
+            if (++lane == Width) {
+                flush();
+            }
+        }
+    }
+    if (lane > 0) {
+        flush();
+    }
+    Estimate estimate = combine(std::span(visible).first(plan.batches), plan);
+    estimate.irradiance = irradiance / (static_cast<double>(plan.batches) * plan.per_batch);
+    return estimate;
+}
+
+/// The work of one call of Truth::trace, shared by its threads; every view sample is written by one of them.
+struct Job {
+    const Occluders& occluders;
+    std::span<const vec4> position_ws, normal_ws;
+    const GnLight& light;
+    const Plan& plan;
+    bool integral;
+    TruthResult& result;
+    std::atomic<std::size_t> next_tile = 0, done = 0;
+    std::atomic<bool> stop = false;
+
+    void trace_one(std::size_t i) {
+        const vec3 p_ws(position_ws[i]);
+        const vec3 n_ws(normal_ws[i]);
+        if (!(position_ws[i].w > 0.0F) || !finite(p_ws) || !gn_counted(light, p_ws, n_ws)) {
+            return;
+        }
+        const Seat seat = occluders.seat(dvec3(p_ws), glm::normalize(dvec3(n_ws)));
+        const LightSampler sampler(light, seat.origin_ws);
+        const Estimate estimate = estimate_at(i, seat, sampler, n_ws);
+        result.counted[i] = 1;
+        result.visibility[i] = static_cast<float>(estimate.visibility);
+        result.standard_error[i] = static_cast<float>(estimate.standard_error);
+        if (integral) {
+            result.irradiance[i] = static_cast<float>(estimate.irradiance);
+        }
+    }
+
+    Estimate estimate_at(std::size_t i, const Seat& seat, const LightSampler& sampler, vec3 n_ws) const {
+        if (sampler.single()) {
+            return trace_single(occluders, seat, sampler, n_ws);
+        }
+        switch (occluders.width()) {
+            case 16: return trace_area<16>(occluders, plan, i, seat, sampler, n_ws, integral);
+            case 8: return trace_area<8>(occluders, plan, i, seat, sampler, n_ws, integral);
+            default: return trace_area<4>(occluders, plan, i, seat, sampler, n_ws, integral);
+        }
+    }
+
+    /// Takes tiles until none is left; `after_tile` gets the fraction done.
+    void work(const std::function<void(double)>& after_tile) {
+        const std::size_t size = position_ws.size();
+        for (std::size_t first = tile_size * next_tile++; first < size && !stop; first = tile_size * next_tile++) {
+            const std::size_t end = std::min(first + tile_size, size);
+            for (std::size_t i = first; i < end; ++i) {
+                trace_one(i);
+            }
+            done += end - first;
+            if (after_tile) {
+                after_tile(static_cast<double>(done) / static_cast<double>(size));
+            }
+        }
+    }
+};
+
+/// Runs the job on this thread and as many others as asked for; only this one reports progress.
+void run(Job& job, int threads, const std::function<void(double)>& progress) {
+    const unsigned available = std::max(1U, std::thread::hardware_concurrency());
+    const unsigned count = threads > 0 ? static_cast<unsigned>(threads) : available;
+    std::vector<std::jthread> others;
+    for (unsigned i = 1; i < std::min(count, 256U); ++i) {
+        others.emplace_back([&job] { job.work({}); });
+    }
+    try {
+        job.work(progress);
+    } catch (...) {
+        job.stop = true;
+        throw;
+    }
+}
+
+}  // namespace
+
+struct Truth::Impl {
+    Occluders occluders;
+};
+
+Truth::Truth(const Scene& scene) : impl_(new Impl{Occluders(scene)}) {}
+Truth::~Truth() = default;
+
+TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const GnLight& light,
+                         const TruthOptions& options, const std::function<void(double)>& progress) const {
+    GN_CHECK_EQ(position_ws.size(), normal_ws.size());
+    const auto start = std::chrono::steady_clock::now();
+    const Plan plan(options);
+    TruthResult result;
+    result.visibility.assign(position_ws.size(), 0.0F);
+    result.standard_error.assign(position_ws.size(), 0.0F);
+    result.counted.assign(position_ws.size(), 0);
+    result.irradiance.assign(options.integral ? position_ws.size() : 0, 0.0F);
+    Job job{impl_->occluders, position_ws, normal_ws, light, plan, options.integral, result};
+    run(job, options.threads, progress);
+    if (progress) {
+        progress(1.0);
+    }
+
+    // Sum in one order, whoever traced.
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < position_ws.size(); ++i) {
+        counted += result.counted[i];
+        result.mean_standard_error += static_cast<double>(result.standard_error[i]);
+    }
+    result.mean_standard_error /= static_cast<double>(std::max<std::size_t>(counted, 1));
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+bool Truth::blocked(dvec3 p_ws, dvec3 q_ws) const {
+    const vec3 origin_ws(p_ws);
+    const dvec3 segment = q_ws - dvec3(origin_ws);
+    const double length = glm::length(segment);
+    if (!(length > 0.0)) {
+        return false;
+    }
+    alignas(16) RTCRayNt<1> ray;
+    aim<1>(ray, 0, origin_ws, {vec3(segment / length), static_cast<float>(length)});
+    const int valid = -1;
+    impl_->occluders.trace<1>({p_ws, origin_ws}, &valid, ray);
+    return ray.tfar[0] < 0.0F;
+}
+
+}  // namespace gn
