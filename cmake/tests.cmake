@@ -65,3 +65,7 @@ if(NOT GNOMON_SANITIZE)
   target_link_libraries(headers_alone PRIVATE gn_options Vulkan::Vulkan fmt::fmt)
   target_compile_options(headers_alone PRIVATE -O0)
 endif()
+
+# Ratios for docs/performance.md; run by hand, never by the tests.
+add_executable(performance_ratios EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/performance/ratios.cpp)
+target_link_libraries(performance_ratios PRIVATE gn_shadow gn_options)

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "tests/rig.h"
+
+namespace gn {
+namespace {
+
+/// Each sample must lie in its triangle's plane to a few units in the last place: measured against the nearest plane of
+/// the scene in double precision.
+TEST(ViewSamples, LieInTheScenesPlanesToRounding) {
+    const test::ValidationGuard guard;
+    for (const char* name : {"contact", "tilted:angle=80", "corridor"}) {
+        const Scene scene = load_scene(name);
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        const CpuSamples samples = render_samples(test::device(), gpu, scene.cameras[0], 64, 64);
+        double worst_ulps = 0;
+        for (std::size_t i = 0; i < samples.position_ws.size(); i += 7) {
+            if (samples.position_ws[i].w < 0.5F) {
+                continue;
+            }
+            const dvec3 p_ws(vec3(samples.position_ws[i]));
+            double nearest = 1e9;
+            for (const uvec3& t : scene.triangles) {
+                const dvec3 a(scene.positions_ws[t.x]);
+                const dvec3 n = glm::cross(dvec3(scene.positions_ws[t.y]) - a, dvec3(scene.positions_ws[t.z]) - a);
+                nearest =
+                    glm::length(n) > 0 ? std::min(nearest, std::abs(glm::dot(p_ws - a, glm::normalize(n)))) : nearest;
+            }
+            const double size = std::max({std::abs(p_ws.x), std::abs(p_ws.y), std::abs(p_ws.z), 1e-3});
+            worst_ulps = std::max(worst_ulps, nearest / (size * 0x1p-23));
+        }
+        RecordProperty(std::string("worst_ulps_") + name, std::to_string(worst_ulps));
+        EXPECT_LT(worst_ulps, 4) << name;
+    }
+}
+
+TEST(ViewSamples, NormalsFaceTheCameraAndAreUnit) {
+    const Scene scene = load_scene("contact");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const CpuSamples samples = render_samples(test::device(), gpu, scene.cameras[0], 64, 64);
+    for (std::size_t i = 0; i < samples.position_ws.size(); ++i) {
+        if (samples.position_ws[i].w > 0.5F) {
+            const vec3 n_ws(samples.normal_ws[i]);
+            EXPECT_NEAR(glm::length(n_ws), 1, 1e-5);
+            EXPECT_GT(glm::dot(n_ws, scene.cameras[0].position_ws - vec3(samples.position_ws[i])), 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn
