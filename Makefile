@@ -37,7 +37,7 @@ test: packages
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan --log-level=WARNING
 	@cmake --build build/asan -j $(JOBS)
-	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --count build/count.txt
+	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --embed --bundle --count build/count.txt
 
 install: packages
 	@cmake --preset release --log-level=WARNING
@@ -51,7 +51,7 @@ pictures: build
 	@$(CACHES) tools/make_pictures $(GNOMON) docs/pictures
 
 docs: build
-	@tools/make_catalogue $(GNOMON) docs/catalogue.md
+	@tools/make_catalogue $(GNOMON) build/catalogue.md
 
 format:
 	@tools/check_format --fix

@@ -263,7 +263,7 @@ def machine_paths(tree):
 
 def pages_exist(tree):
     """A page that a comment names, or that another page names with its folder or links to, is there."""
-    known = {pathlib.PurePosixPath(name).name for name in tree.having({".md"})} | {"catalogue.md"}
+    known = {pathlib.PurePosixPath(name).name for name in tree.having({".md"})}
     named = re.compile(r"(?<![\w<>*/])(?:[\w.-]+/)*([A-Za-z][\w-]*\.md)\b")
     linked = re.compile(r"(?:\]\(|/)([A-Za-z][\w-]*\.md)\b")
     complaints = []

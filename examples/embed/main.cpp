@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Somebody else's renderer, in one page: it owns the device and the geometry, and asks Gnomon for a visibility image.
+#include "host_device.h"
+
+#include "gpu/device.h"
+#include "shadow/frame.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+namespace {
+
+/// The host's own geometry: a floor of 8 x 8 metres and a wall of 2 x 2 metres standing on it.
+gn::Scene make_scene() {
+    gn::Scene scene;
+    scene.name = "host";
+    scene.positions_ws = {{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}, {-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}};
+    scene.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+    scene.objects = {{.name = "floor", .first_triangle = 0, .triangle_count = 2},
+                     {.name = "wall", .first_triangle = 2, .triangle_count = 2}};
+    scene.materials.emplace_back();
+
+    // A sun from behind the wall, 45 degrees high: its shadow reaches two metres forward.
+    gn::Light sun;
+    sun.name = "sun";
+    sun.shape.kind = GN_LIGHT_DIRECTIONAL;
+    sun.shape.direction_ws = vec4(glm::normalize(vec3(0, -1, 1)), 0);
+    sun.shape.intensity = 20000;
+    scene.lights = {sun};
+
+    gn::Camera camera;
+    camera.position_ws = {0, 5, 7};
+    camera.forward_ws = glm::normalize(vec3(0, -5, -7));
+    scene.cameras = {camera};
+    gn::finish_scene(scene);
+    return scene;
+}
+
+void render(const char* output) {
+    HostDevice host;
+
+    // Lend the device, hand over the scene, name a recipe.
+    const auto device = gn::Device::adopt({.instance = host.instance,
+                                           .physical = host.physical,
+                                           .device = host.device,
+                                           .queue = host.queue,
+                                           .queue_family = host.queue_family});
+    const gn::Scene scene = make_scene();
+    gn::SceneGpu uploaded = gn::upload_scene(*device, scene);
+    const gn::Recipe recipe = gn::load_recipe("pcf,resolution=2048");
+    const gn::FrameResult frame =
+        gn::render_frame(*device, uploaded, scene.camera(""), recipe, {.width = 320, .height = 240, .picture = false});
+
+    // V of each pixel, one image a light: what the host multiplies its own light with.
+    const gn::Image& visibility = frame.visibility.at(0);
+    std::size_t lit = 0;
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < visibility.pixels(); ++i) {
+        const bool surface = frame.samples.position_ws[i].w > 0.5F;
+        lit += surface && visibility.values[i] > 0.5F ? 1 : 0;
+        dark += surface && visibility.values[i] <= 0.5F ? 1 : 0;
+    }
+    gn::write_png(output, visibility);
+    std::printf("%s: %zu lit, %zu dark pixels\n", output, lit, dark);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        setenv("GNOMON_DATA", EMBED_DATA, 0);
+        render(argc > 1 ? argv[1] : "shadow.png");
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "embed: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}
