@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0: nodes become instances of primitives, lights and cameras.
+#include "shadow/scene/gltf_data.h"
+
+namespace gn {
+
+namespace {
+
+using namespace gltf;
+
+// Builds the meshes that nodes ask for, each primitive once.
+class Builder {
+  public:
+    Builder(File& file, Model& model) : file_(file), model_(model), uv_uses_(load_materials(file, model)) {}
+
+    void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Joints* joints) {
+        if (node.mesh < 0) {
+            return;
+        }
+        const tinygltf::Mesh& data = at(file_.data.meshes, node.mesh, file_, "mesh");
+        const std::string name = clean_text(!node.name.empty() ? node.name : data.name);
+        if (joints != nullptr) {
+            // A posed mesh is already in the world: the node's own matrix plays no part.
+            for (const std::size_t mesh : load(data, joints)) {
+                add_instance(mesh, dmat4(1.0), name);
+            }
+            return;
+        }
+        const auto known = meshes_.find(node.mesh);
+        const auto& parts = known != meshes_.end() ? known->second : meshes_[node.mesh] = load(data, nullptr);
+        for (const std::size_t mesh : parts) {
+            add_instance(mesh, ws_from_node, name);
+        }
+    }
+
+  private:
+    std::vector<std::size_t> load(const tinygltf::Mesh& data, const Joints* joints) {
+        std::vector<std::size_t> parts;
+        for (const tinygltf::Primitive& primitive : data.primitives) {
+            const bool known =
+                primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < file_.data.materials.size();
+            if (!known && primitive.material >= 0) {
+                add_note(file_.notes, fmt::format("Material {} does not exist; grey is used.", primitive.material));
+            }
+            const std::size_t material =
+                known ? static_cast<std::size_t>(primitive.material) : file_.data.materials.size();
+            Mesh mesh = load_primitive(file_, primitive, uv_uses_[material], joints);
+            mesh.name = clean_text(data.name);
+            mesh.material = static_cast<int>(material);
+            note_missing_uvs(primitive, material);
+            if (!mesh.triangles.empty()) {
+                parts.push_back(model_.meshes.size());
+                model_.meshes.push_back(std::move(mesh));
+            }
+        }
+        return parts;
+    }
+
+    void note_missing_uvs(const tinygltf::Primitive& primitive, std::size_t material) {
+        const std::string name = fmt::format("TEXCOORD_{}", uv_uses_[material].set);
+        if (model_.materials[material].base_color_texture >= 0 && primitive.attributes.count(name) == 0) {
+            add_note(file_.notes, fmt::format("A mesh of material '{}' lacks {}; the texture's corner (0, 0) is used.",
+                                              model_.materials[material].name, name));
+        }
+    }
+
+    void add_instance(std::size_t mesh, const dmat4& ws_from_os, const std::string& name) {
+        triangles_ += model_.meshes[mesh].triangles.size();
+        if (model_.instances.size() >= max_instances || triangles_ > max_triangles) {
+            fail("{}: more than {} instances or {} triangles after instancing", file_.shown, max_instances,
+                 max_triangles);
+        }
+        model_.instances.push_back({mesh, ws_from_os, name});
+    }
+
+    File& file_;
+    Model& model_;
+    std::vector<UvUse> uv_uses_;
+    std::map<int, std::vector<std::size_t>> meshes_;
+    std::size_t triangles_ = 0;
+};
+
+// joint matrix = world from joint x joint from mesh, all at rest.
+std::optional<Joints> rest_joints(File& file, int skin_index, const std::vector<std::optional<dmat4>>& world) {
+    if (skin_index < 0) {
+        return std::nullopt;
+    }
+    const tinygltf::Skin& skin = at(file.data.skins, skin_index, file, "skin");
+    std::optional<Elements> inverses;
+    if (skin.inverseBindMatrices >= 0) {
+        inverses.emplace(file, skin.inverseBindMatrices);
+    }
+    Joints joints;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        at(file.data.nodes, skin.joints[i], file, "node");
+        const std::optional<dmat4>& ws_from_joint = world[static_cast<std::size_t>(skin.joints[i])];
+        const bool given = inverses && i < inverses->size() && inverses->components() == 16;
+        joints.push_back(ws_from_joint.value_or(dmat4(1.0)) * (given ? inverses->matrix(i) : dmat4(1.0)));
+    }
+    return joints.empty() ? std::nullopt : std::optional(std::move(joints));
+}
+
+}  // namespace
+
+Model load_gltf(const std::filesystem::path& path) {
+    File file = parse_file(path);
+    Model model;
+    Builder builder(file, model);
+
+    // Where every node stands; joints are nodes too.
+    const std::vector<PlacedNode> nodes = walk_nodes(file);
+    std::vector<std::optional<dmat4>> world(file.data.nodes.size());
+    for (const PlacedNode& node : nodes) {
+        world[static_cast<std::size_t>(node.index)] = node.ws_from_node;
+    }
+
+    // What every node carries.
+    for (const PlacedNode& node : nodes) {
+        const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
+        const std::optional<Joints> joints = rest_joints(file, data.mesh >= 0 ? data.skin : -1, world);
+        builder.add(data, node.ws_from_node, joints ? &*joints : nullptr);
+        if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node)) {
+            model.lights.push_back(std::move(*light));
+        }
+        if (std::optional<PlacedCamera> camera = load_camera(file, data, node.ws_from_node)) {
+            model.cameras.push_back(std::move(*camera));
+        }
+    }
+    for (std::string& sentence : file.notes) {
+        add_note(model.notes, std::move(sentence));
+    }
+    return model;
+}
+
+}  // namespace gn

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Parsing .gltf and .glb with tinygltf, kept inside the model's folder and within bounded memory.
+#include "shadow/scene/gltf_data.h"
+
+#include <cstring>
+
+namespace gn::gltf {
+
+void check_json(std::string_view json, const std::string& shown) {
+    // The parser recurses on nesting and spends hundreds of bytes on a value: count both first.
+    constexpr std::size_t most_values = 8'000'000;
+    constexpr int deepest = 128;
+    std::size_t values = 0;
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string) {
+            i += c == '\\' ? 1U : 0U;
+            in_string = c != '"';
+            continue;
+        }
+        in_string = c == '"';
+        const bool opens = c == '{' || c == '[';
+        depth += opens ? 1 : c == '}' || c == ']' ? -1 : 0;
+        values += opens || c == ',' ? 1U : 0U;
+        if (depth > deepest) {
+            fail("{}: the JSON nests deeper than {} levels", shown, deepest);
+        }
+    }
+    if (values > most_values) {
+        fail("{}: the JSON holds {} values; at most {} are read", shown, values, most_values);
+    }
+}
+
+namespace {
+
+// What the callbacks of the parser need.
+struct Reader {
+    Folder folder;
+    File* file;
+    std::size_t bytes_left = 2 * max_file_bytes;  // of all external files together
+};
+
+bool file_exists(const std::string& path, void* user) {
+    return static_cast<Reader*>(user)->folder.holds(path);
+}
+
+std::string expand_path(const std::string& path, void*) {
+    return path;
+}
+
+bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* user) {
+    auto& reader = *static_cast<Reader*>(user);
+    try {
+        if (!reader.folder.holds(path)) {
+            *error += "the file lies outside the model's folder";
+            return false;
+        }
+        const std::vector<std::byte> bytes = read_file(path, std::min(reader.bytes_left, max_file_bytes));
+        reader.bytes_left -= bytes.size();
+        const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+        out->assign(first, first + bytes.size());
+        return true;
+    } catch (const std::exception& problem) {
+        *error += problem.what();
+        return false;
+    }
+}
+
+// Pictures are decoded later and only if a material needs them; those in buffer views are found there again.
+bool keep_image(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
+                const unsigned char* bytes, int size, void* user) {
+    if (image->bufferView < 0 && size > 0) {
+        const auto* first = reinterpret_cast<const std::byte*>(bytes);
+        static_cast<Reader*>(user)->file->external_images[index].assign(first, first + size);
+    }
+    return true;
+}
+
+std::uint32_t word(std::span<const std::byte> bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+}
+
+std::string_view json_of(std::span<const std::byte> bytes, bool binary, const std::string& shown) {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    if (!binary) {
+        return {text, bytes.size()};
+    }
+    // Header: magic, version, length; then the JSON chunk's length and type.
+    constexpr std::size_t header = 20;
+    if (bytes.size() < header || word(bytes, 12) > bytes.size() - header || word(bytes, 8) > bytes.size()) {
+        fail("{}: the file is cut off", shown);
+    }
+    if (word(bytes, 4) != 2) {
+        fail("{}: glTF version {}; only version 2 is read", shown, word(bytes, 4));
+    }
+    return {text + header, word(bytes, 12)};
+}
+
+// The first of the parser's complaints, as one line.
+std::string first_line(const std::string& complaints) {
+    const std::size_t begin = complaints.find_first_not_of("\r\n ");
+    const std::string line = begin == std::string::npos
+                                 ? "not a valid file"
+                                 : complaints.substr(begin, complaints.find('\n', begin) - begin);
+    return clean_text(line.substr(0, line.find_last_not_of(" .") + 1));
+}
+
+void check_extensions(File& file) {
+    // What only changes how a surface looks may be left out; what holds the geometry may not.
+    for (const std::string& name : file.data.extensionsRequired) {
+        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
+            fail("{}: the meshes are compressed with {}, which is not supported; save the file without compression",
+                 file.shown, clean_text(name));
+        }
+        static constexpr std::array known{"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
+                                          "KHR_materials_emissive_strength"};
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            add_note(file.notes, fmt::format("The extension {} is not supported and was left out.", clean_text(name)));
+        }
+    }
+    const auto& used = file.data.extensionsUsed;
+    if (std::find(used.begin(), used.end(), "EXT_mesh_gpu_instancing") != used.end()) {
+        add_note(file.notes, "Instances by EXT_mesh_gpu_instancing are not supported: each mesh appears once.");
+    }
+}
+
+}  // namespace
+
+File parse_file(const std::filesystem::path& path) {
+    File file;
+    file.shown = clean_text(path.string());
+    Reader reader{Folder(path), &file};
+    const std::vector<std::byte> bytes = read_file(path);
+    if (bytes.size() < 4) {
+        fail("{}: the file is empty; a glTF file was expected", file.shown);
+    }
+    const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
+    check_json(json_of(bytes, binary, file.shown), file.shown);
+
+    // The parser sees files only through the callbacks.
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({&file_exists, &expand_path, &read_whole_file, nullptr, &reader});
+    parser.SetImageLoader(&keep_image, &reader);
+    std::string errors;
+    std::string warnings;
+    bool good = false;
+    const auto size = static_cast<unsigned>(bytes.size());
+    const std::string root = reader.folder.root().string();
+    try {
+        good = binary ? parser.LoadBinaryFromMemory(&file.data, &errors, &warnings,
+                                                    reinterpret_cast<const unsigned char*>(bytes.data()), size, root)
+                      : parser.LoadASCIIFromString(&file.data, &errors, &warnings,
+                                                   reinterpret_cast<const char*>(bytes.data()), size, root);
+    } catch (const std::bad_alloc&) {
+        fail("{}: not enough memory to read the file", file.shown);
+    } catch (const std::exception& problem) {
+        fail("{}: not a valid glTF file ({})", file.shown, first_line(problem.what()));
+    }
+    if (!good) {
+        fail("{}: not a valid glTF file ({})", file.shown, first_line(errors));
+    }
+    check_extensions(file);
+    return file;
+}
+
+std::optional<double> number(const tinygltf::Value& object, const std::string& key) {
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) {
+        return std::nullopt;
+    }
+    return object.Get(key).GetNumberAsDouble();
+}
+
+}  // namespace gn::gltf

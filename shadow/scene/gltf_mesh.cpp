@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Primitives: triangles, strips and fans, with only the vertices that they use.
+#include "shadow/scene/gltf_data.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gn::gltf {
+
+namespace {
+
+std::optional<Elements> attribute(const File& file, const tinygltf::Primitive& primitive, const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? std::nullopt
+                                               : std::optional<Elements>(std::in_place, file, found->second);
+}
+
+int mode_of(const tinygltf::Primitive& primitive) {
+    return primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+}
+
+// How many triangles a list of `count` indices makes.
+std::size_t count_triangles(int mode, std::size_t count) {
+    return mode == TINYGLTF_MODE_TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
+}
+
+// The places in the index list of triangle `i`; strips turn every other one, fans share the first.
+std::array<std::size_t, 3> triangle_slots(int mode, std::size_t i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+        return i % 2 == 0 ? std::array{i, i + 1, i + 2} : std::array{i + 1, i, i + 2};
+    }
+    return mode == TINYGLTF_MODE_TRIANGLE_FAN ? std::array<std::size_t, 3>{0, i + 1, i + 2}
+                                              : std::array{3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+std::vector<uvec3> read_triangles(File& file, const tinygltf::Primitive& primitive, std::size_t vertices) {
+    const int mode = mode_of(primitive);
+    std::optional<Elements> indices;
+    if (primitive.indices >= 0) {
+        indices.emplace(file, primitive.indices);
+    }
+    const std::size_t count = indices ? indices->size() : vertices;
+    const std::size_t triangles = count_triangles(mode, count);
+    file.triangles_decoded += triangles;
+    if (file.triangles_decoded > max_triangles) {
+        fail("{}: the meshes have more than {} triangles", file.shown, max_triangles);
+    }
+
+    // Drop what points nowhere; repeated indices are how strips jump.
+    std::vector<uvec3> kept;
+    kept.reserve(triangles);
+    std::size_t dropped = 0;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        uvec3 t;
+        const auto slots = triangle_slots(mode, i);
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::size_t slot = slots[static_cast<std::size_t>(corner)];
+            t[corner] = indices ? indices->integer(slot) : static_cast<std::uint32_t>(slot);
+        }
+        if (std::max({t.x, t.y, t.z}) >= vertices) {
+            ++dropped;
+        } else if (t.x != t.y && t.y != t.z && t.z != t.x) {
+            kept.push_back(t);
+        }
+    }
+    if (dropped > 0) {
+        add_note(file.notes, fmt::format("{} triangles named vertices that are not there and were dropped.", dropped));
+    }
+    if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
+        add_note(file.notes, fmt::format("A list of {} indices is no multiple of 3; the rest was dropped.", count));
+    }
+    return kept;
+}
+
+// Renumbers the triangles densely; returns which vertex of the file each new one is.
+std::vector<std::uint32_t> compact(std::vector<uvec3>& triangles) {
+    std::vector<std::uint32_t> used;
+    used.reserve(triangles.size() * 3);
+    for (const uvec3 t : triangles) {
+        used.insert(used.end(), {t.x, t.y, t.z});
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (uvec3& t : triangles) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const auto found = std::lower_bound(used.begin(), used.end(), t[corner]);
+            t[corner] = static_cast<std::uint32_t>(found - used.begin());
+        }
+    }
+    return used;
+}
+
+// The mean of the joints' matrices at rest, by the vertex's weights.
+std::optional<dmat4> rest_matrix(const Elements& joints, const Elements& weights, std::size_t vertex,
+                                 const Joints& matrices) {
+    if (vertex >= joints.size() || vertex >= weights.size()) {
+        return std::nullopt;
+    }
+    const dvec4 names = joints.vector(vertex);
+    const dvec4 w = weights.vector(vertex);
+    dmat4 sum(0.0);
+    double total = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        const bool exists = names[i] >= 0.0 && names[i] < static_cast<double>(matrices.size());
+        if (exists && w[i] > 0.0 && std::isfinite(w[i])) {
+            sum += w[i] * matrices[static_cast<std::size_t>(names[i])];
+            total += w[i];
+        }
+    }
+    return total > 0.0 ? std::optional(sum * (1.0 / total)) : std::nullopt;
+}
+
+void pose(const File& file, const tinygltf::Primitive& primitive, const std::vector<std::uint32_t>& used,
+          const Joints& matrices, Mesh& mesh) {
+    const std::optional<Elements> joints = attribute(file, primitive, "JOINTS_0");
+    const std::optional<Elements> weights = attribute(file, primitive, "WEIGHTS_0");
+    if (!joints || !weights) {
+        return;
+    }
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        const std::optional<dmat4> m = rest_matrix(*joints, *weights, used[v], matrices);
+        if (!m) {
+            continue;
+        }
+        mesh.positions_os[v] = dvec3(*m * dvec4(mesh.positions_os[v], 1.0));
+        const glm::dmat3 linear(*m);
+        const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                                   glm::cross(linear[0], linear[1]));
+        const dvec3 n = cofactors * dvec3(mesh.normals_os[v]);
+        const double length = glm::length(n);
+        mesh.normals_os[v] = length > 0.0 && std::isfinite(length) ? vec3(n / length) : vec3(0.0F);
+    }
+}
+
+bool is_compressed(const File& file, const tinygltf::Primitive& primitive, int positions) {
+    return primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
+           at(file.data.accessors, positions, file, "accessor").bufferView < 0;
+}
+
+}  // namespace
+
+Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Joints* joints) {
+    // Only triangles cast shadows.
+    Mesh mesh;
+    const int mode = mode_of(primitive);
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        add_note(file.notes, "Points and lines were skipped: only triangles cast shadows.");
+        return mesh;
+    }
+    if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        fail("{}: primitive mode {} does not exist; modes are 0 to 6", file.shown, mode);
+    }
+    const auto named = primitive.attributes.find("POSITION");
+    if (named == primitive.attributes.end()) {
+        add_note(file.notes, "A primitive without positions was skipped.");
+        return mesh;
+    }
+    if (is_compressed(file, primitive, named->second)) {
+        fail(
+            "{}: the meshes are compressed with KHR_draco_mesh_compression, which is not supported; save the file "
+            "without compression",
+            file.shown);
+    }
+
+    // Find the vertices in use, then read just those.
+    const Elements positions(file, named->second);
+    const std::optional<Elements> normals = attribute(file, primitive, "NORMAL");
+    const std::optional<Elements> uvs = attribute(file, primitive, fmt::format("TEXCOORD_{}", uv_use.set));
+    mesh.triangles = read_triangles(file, primitive, positions.size());
+    const std::vector<std::uint32_t> used = compact(mesh.triangles);
+    for (const std::uint32_t v : used) {
+        mesh.positions_os.emplace_back(positions.vector(v));
+        mesh.normals_os.push_back(normals && v < normals->size() ? vec3(normals->vector(v)) : vec3(0.0F));
+        const dvec2 uv(uvs && v < uvs->size() ? dvec2(uvs->vector(v)) : dvec2(0.0));
+        mesh.uvs.emplace_back(uv_use.uv_from_file * dvec3(uv, 1.0));
+    }
+    if (joints != nullptr) {
+        pose(file, primitive, used, *joints, mesh);
+    }
+    return mesh;
+}
+
+}  // namespace gn::gltf

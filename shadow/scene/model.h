@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What the file loaders hand over: meshes in object space, instances, lights and cameras, all in double precision.
+// Only flatten() rounds to float, after the scene's origin is known.
+#pragma once
+
+#include "shadow/scene/scene.h"
+
+namespace gn {
+
+/// Triangles of one material in object space. Indices are < positions_os.size(); a zero normal means "not given".
+struct Mesh {
+    std::string name;
+    std::vector<dvec3> positions_os;
+    std::vector<vec3> normals_os;  ///< as long as positions_os
+    std::vector<vec2> uvs;         ///< as long as positions_os
+    std::vector<uvec3> triangles;
+    int material = 0;
+};
+
+struct Instance {
+    std::size_t mesh = 0;
+    dmat4 ws_from_os{1.0};
+    std::string name;
+};
+
+/// light.shape.position_ws is unused until flatten() writes it.
+struct PlacedLight {
+    Light light;
+    dvec3 position_ws{0.0};
+};
+
+/// camera.position_ws is unused until flatten() writes it. near or far 0: to be chosen from the scene.
+struct PlacedCamera {
+    Camera camera;
+    dvec3 position_ws{0.0};
+};
+
+struct PlacedPath {
+    std::string name;
+    std::vector<PlacedCamera> frames;
+};
+
+struct Model {
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<PlacedLight> lights;
+    std::vector<PlacedCamera> cameras;
+    std::vector<PlacedPath> paths;
+    std::vector<std::string> notes;
+};
+
+/// Most instances of primitives in one scene; more is an Error.
+inline constexpr std::size_t max_instances = 1'000'000;
+/// Most pixels of all textures of one file; further textures are dropped with a note.
+inline constexpr std::size_t max_texture_pixels = std::size_t{1} << 29;
+
+/// Adds a note; after 200 notes one last sentence says that more were left out.
+void add_note(std::vector<std::string>& notes, std::string note);
+
+/// Appends `part` to `whole`, moved by `ws_from_model`.
+void append_model(Model& whole, Model part, const dmat4& ws_from_model);
+
+/// Writes every instance in world space. Throws Error beyond max_triangles or max_instances, before it allocates.
+Scene flatten(const Model& model);
+
+/// Where zero should lie for coordinates in [min, max]: zero itself unless the box lies more than 16 of its own
+/// extents away, which would cost floats more than four of their 24 bits. A multiple of a power of two, so that
+/// subtracting it rounds nothing that matters.
+dvec3 choose_origin(dvec3 min, dvec3 max);
+
+// The loaders. Each throws Error with one sentence and reads nothing outside the file's folder.
+Model load_gltf(const std::filesystem::path& path);
+Model load_obj(const std::filesystem::path& path);
+Model load_assimp(const std::filesystem::path& path);
+Model load_toml(const std::filesystem::path& path);
+/// By extension; `.toml` only where `toml_allowed`.
+Model load_model(const std::filesystem::path& path, bool toml_allowed);
+
+// The steps of finish_scene.
+void drop_bad_triangles(Scene& scene);
+void complete_normals(Scene& scene);
+void complete_lights(Scene& scene);
+void complete_cameras(Scene& scene);
+/// The box of the main mass of triangles: few far outliers left out.
+Box main_bounds(const Scene& scene);
+
+}  // namespace gn
