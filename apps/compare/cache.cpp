@@ -79,6 +79,7 @@ ResultCache::ResultCache(fs::path folder, bool fresh, const CompareOptions& opti
       height_(options.size.height),
       samples_(options.samples),
       repeat_(options.repeat),
+      threads_(options.threads),
       validate_(options.validate),
       light_(options.light) {
     if (!folder_.empty()) {
@@ -89,7 +90,7 @@ ResultCache::ResultCache(fs::path folder, bool fresh, const CompareOptions& opti
 std::string ResultCache::view_key(const Scene& scene, const std::string& asked, const Camera& camera) const {
     Hasher hasher;
     hasher.text(stamp_).text(asked).text(light_);
-    hasher.value(width_).value(height_).value(samples_).value(repeat_).value(validate_);
+    hasher.value(width_).value(height_).value(samples_).value(repeat_).value(threads_).value(validate_);
     // The camera by its fields: between them there may be padding.
     hasher.text(camera.name).bytes(&camera.position_ws, sizeof camera.position_ws);
     hasher.bytes(&camera.forward_ws, sizeof camera.forward_ws).bytes(&camera.up_ws, sizeof camera.up_ws);

@@ -40,7 +40,7 @@ class ResultCache {
     [[nodiscard]] bool picture_exists(const std::string& name) const;
     std::filesystem::path folder_;
     bool read_ = false;
-    int width_ = 0, height_ = 0, samples_ = 0, repeat_ = 0;
+    int width_ = 0, height_ = 0, samples_ = 0, repeat_ = 0, threads_ = 0;
     bool validate_ = false;
     std::string light_, stamp_;
 };

@@ -77,7 +77,7 @@ class Comparer {
 
   private:
     void compare_scene(const std::string& asked, const std::vector<AskedRecipe>& recipes, int step, int steps) {
-        if (stop_requested()) {
+        if (stopping()) {
             return;
         }
         progress_.step(step, steps, "reading " + asked);
@@ -88,7 +88,7 @@ class Comparer {
         }
         const std::size_t index = comparison_.scenes.size();
         comparison_.scenes.push_back(view->result);
-        for (std::size_t r = 0; r < recipes.size() && !stop_requested(); ++r) {
+        for (std::size_t r = 0; r < recipes.size() && !stopping(); ++r) {
             const int at = step + 1 + static_cast<int>(r);
             if (!add_run(*view, recipes[r], at, steps)) {
                 return;
@@ -186,7 +186,9 @@ class Comparer {
     void recover(ViewSession& view) {
         if (!bench_.alive()) {
             view.release_device();
-            bench_.replace();
+            const std::string sentence = failure_of([&] { bench_.replace(); });
+            abandoned_ = !sentence.empty();
+            fmt::print(stderr, "{}", abandoned_ ? fmt::format("gnomon: the device is lost: {}\n", sentence) : "");
         }
     }
 
@@ -205,6 +207,8 @@ class Comparer {
         }
         comparison_.runs.push_back(std::move(run));
     }
+
+    [[nodiscard]] bool stopping() const { return abandoned_ || stop_requested(); }
 
     void publish() {
         if (!options_.folder.empty()) {
@@ -236,6 +240,7 @@ class Comparer {
     Progress progress_;
     Comparison comparison_;
     int status_ = exit_done;
+    bool abandoned_ = false;  ///< no device can be had any more
 };
 
 }  // namespace

@@ -114,8 +114,8 @@ ordered_json overall_reference(const Comparison& comparison) {
         standard_error += scene.reference.standard_error;
         traced += scene.reference.samples > 0 ? 1 : 0;
     }
-    const auto mean = traced > 0 ? std::optional<double>(standard_error / traced) : std::nullopt;
-    return {{"samples", comparison.samples}, {"seconds", seconds}, {"standard_error", number(mean)}};
+    const ordered_json mean = traced > 0 ? ordered_json(standard_error / traced) : ordered_json(nullptr);
+    return {{"samples", comparison.samples}, {"seconds", seconds}, {"standard_error", mean}};
 }
 
 ordered_json document(const Comparison& comparison, bool for_report) {
