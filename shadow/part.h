@@ -21,6 +21,14 @@ struct LightKinds {
 };
 inline constexpr LightKinds all_lights{true, true, true, true};
 
+// The GLSL functions that the shared resolve pass calls, by stage; <id> with '-' as '_', the params argument only where
+// params_type is set:
+//
+//   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
+//   lookup      float gn_<id>_visibility(GnReceiver, GnProjected, GnBias, sampler2DArray map, Params)
+//   map         float gn_<id>_visibility(sampler2DArray map, sampler2DArray extra, GnProjected, vec2 ddx_ts, vec2 ddy_ts,
+//               Params), for maps that give "filterable"; the lookup `filtered` calls it as GN_MAP_VISIBILITY
+
 /// The reach of a kernel: the larger of both counts.
 struct Guard {
     float texels = 0, metres = 0;

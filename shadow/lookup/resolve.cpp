@@ -64,11 +64,10 @@ std::string prologue_of(const Part& part, const Recipe& recipe) {
 
 /// What a map's function may use besides its arguments; `filtered` calls it through GN_MAP_VISIBILITY.
 std::string map_call(const Part& map) {
-    const std::string params = map.params_type.empty() ? "" : ", u.map_params";
     return fmt::format(
-        "#define GN_MAP_VISIBILITY(uv_ts, depth, ddx_ts, ddy_ts, layer, metres_per_depth) "
-        "gn_{}_visibility(shadow_map, shadow_map_extra, uv_ts, depth, ddx_ts, ddy_ts, layer, metres_per_depth{})\n",
-        identifier(map.id), params);
+        "#define GN_MAP_VISIBILITY(projected, ddx_ts, ddy_ts) "
+        "gn_{}_visibility(shadow_map, shadow_map_extra, projected, ddx_ts, ddy_ts{})\n",
+        identifier(map.id), map.params_type.empty() ? "" : ", u.map_params");
 }
 
 ComputeDesc resolve_shader(const Part& placement, const Recipe& recipe) {

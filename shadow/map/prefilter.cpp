@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/map/prefilter.h"
+
+#include <bit>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+constexpr const char* layer_head = R"(
+layout(binding = 15) uniform sampler2DArray source;
+layout(push_constant) uniform Push { int push_layer; };
+)";
+
+/// A texture like `source` with one sample and `mips` levels.
+TextureHandle create_like(const FrameInput& input, TextureHandle source, std::string name, std::uint32_t mips) {
+    TextureDesc desc = input.graph.desc(source);
+    desc.name = std::move(name);
+    desc.samples = 1;
+    desc.mips = mips;
+    desc.usage = 0;
+    return input.graph.create(desc);
+}
+
+/// The mean of the samples' stored values: moments average, depths would not.
+TextureHandle add_resolve_samples(const FrameInput& input, TextureHandle source, const MomentMap& map) {
+    static constexpr const char* text = R"(
+layout(binding = 0) uniform sampler2DMSArray multisampled;
+layout(push_constant) uniform Push { int push_layer; };
+layout(location = 0) out vec4 out_moments;
+void main() {
+    ivec3 texel = ivec3(ivec2(gl_FragCoord.xy), push_layer);
+    out_moments = 0.25 * (texelFetch(multisampled, texel, 0) + texelFetch(multisampled, texel, 1) +
+                          texelFetch(multisampled, texel, 2) + texelFetch(multisampled, texel, 3));
+}
+)";
+    const TextureHandle target = create_like(input, source, map.name, map.mips);
+    for (std::uint32_t layer = 0; layer < input.graph.desc(source).layers; ++layer) {
+        input.graph.add_pass(
+            "resolve samples",
+            [&](PassBuilder& pass) {
+                pass.sample(source);
+                pass.color(target, Load::discard, {}, one_layer(layer));
+            },
+            [source, layer](Recorder& r) {
+                r.bind(fullscreen({ShaderKind::fragment, "resolve samples", text}));
+                r.set("multisampled", source);
+                r.push_value(static_cast<std::int32_t>(layer));
+                r.draw(3);
+            });
+    }
+    return target;
+}
+
+/// One direction of the blur; weights stand in the shader, so that its loop is unrolled.
+std::string blur_text(const std::vector<float>& weights, const char* step) {
+    std::string text = "layout(location = 0) out vec4 out_moments;\n";
+    text += fmt::format("const float weights[{}] = float[](", weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        text += fmt::format("{}{:.9g}", i == 0 ? "" : ", ", weights[i]);
+    }
+    text += fmt::format(R"();
+void main() {{
+    ivec2 last = textureSize(source, 0).xy - 1;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    out_moments = weights[0] * texelFetch(source, ivec3(texel, push_layer), 0);
+    for (int i = 1; i < {}; ++i) {{
+        ivec2 step = i * ivec2({});
+        out_moments += weights[i] * (texelFetch(source, ivec3(clamp(texel + step, ivec2(0), last), push_layer), 0) +
+                                     texelFetch(source, ivec3(clamp(texel - step, ivec2(0), last), push_layer), 0));
+    }}
+}}
+)",
+                        weights.size(), step);
+    return text;
+}
+
+}  // namespace
+
+TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                          const MomentMap& map) {
+    TextureDesc color{.name = map.name,
+                      .format = map.format,
+                      .width = views.resolution,
+                      .height = views.resolution,
+                      .layers = views.layers,
+                      .mips = map.samples > 1 ? 1 : map.mips,
+                      .samples = static_cast<std::uint32_t>(map.samples)};
+    TextureDesc depth = color;
+    depth.name = map.name + " depth";
+    depth.format = VK_FORMAT_D32_SFLOAT;
+    depth.mips = 1;
+    if (map.samples > 1) {
+        color.name += " samples";
+    }
+    const TextureHandle target = input.graph.create(color);
+    add_caster_passes(input, recipe, views,
+                      {.name = "map",
+                       .color = target,
+                       .clear_color = map.clear,
+                       .depth = input.graph.create(depth),
+                       .fragment = map.fragment,
+                       .bind_values = map.bind_values});
+    return map.samples > 1 ? add_resolve_samples(input, target, map) : target;
+}
+
+std::vector<float> blur_weights(BlurKernel kernel, int radius) {
+    std::vector<float> weights(static_cast<std::size_t>(radius) + 1, 1.0F);
+    if (kernel == BlurKernel::gaussian && radius > 0) {
+        const float sigma = 0.5F * static_cast<float>(radius);
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            const float x = static_cast<float>(i) / sigma;
+            weights[i] = std::exp(-0.5F * x * x);
+        }
+    }
+    float sum = weights[0];
+    for (std::size_t i = 1; i < weights.size(); ++i) {
+        sum += 2 * weights[i];
+    }
+    for (float& weight : weights) {
+        weight /= sum;
+    }
+    return weights;
+}
+
+TextureHandle add_blur(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius,
+                       std::uint32_t mips) {
+    if (kernel == BlurKernel::none || radius == 0) {
+        return source;
+    }
+    const std::vector<float> weights = blur_weights(kernel, radius);
+    const TextureHandle half = create_like(input, source, "map blurred in u", 1);
+    const TextureHandle whole = create_like(input, source, "map blurred", mips);
+    add_layer_passes(input, source, half, {.name = "blur u", .text = blur_text(weights, "1, 0")});
+    add_layer_passes(input, half, whole, {.name = "blur v", .text = blur_text(weights, "0, 1")});
+    return whole;
+}
+
+void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass) {
+    RasterDesc desc = fullscreen({ShaderKind::fragment, pass.name, layer_head + pass.text});
+    for (std::uint32_t layer = 0; layer < input.graph.desc(target).layers; ++layer) {
+        input.graph.add_pass(
+            pass.name,
+            [&](PassBuilder& builder) {
+                builder.sample(source, one_mip(0));
+                for (const auto& [name, texture] : pass.more) {
+                    builder.sample(texture, one_mip(0));
+                }
+                builder.color(target, Load::discard, {}, one_layer(layer));
+            },
+            [desc, pass, source, layer](Recorder& r) {
+                r.bind(desc);
+                r.set("source", source, pass.sampler, one_mip(0));
+                for (const auto& [name, texture] : pass.more) {
+                    r.set(name, texture, pass.sampler, one_mip(0));
+                }
+                if (pass.bind_values) {
+                    pass.bind_values(r);
+                }
+                r.push_value(static_cast<std::int32_t>(layer));
+                r.draw(3);
+            });
+    }
+}
+
+std::uint32_t full_chain(std::uint32_t resolution) {
+    return static_cast<std::uint32_t>(std::bit_width(resolution));
+}
+
+void add_mips(const FrameInput& input, TextureHandle texture) {
+    const std::uint32_t mips = input.graph.desc(texture).mips;
+    for (std::uint32_t mip = 1; mip < mips; ++mip) {
+        input.graph.add_pass(
+            "mip",
+            [&](PassBuilder& pass) {
+                pass.copy_from(texture, one_mip(mip - 1));
+                pass.copy_to(texture, one_mip(mip));
+            },
+            [texture, mip](Recorder& r) {
+                r.blit(texture, one_mip(mip - 1), texture, one_mip(mip), VK_FILTER_LINEAR);
+            });
+    }
+}
+
+}  // namespace gn

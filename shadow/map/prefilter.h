@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// From casters to a prefiltered map: rasterize what a texel stores (with MSAA where asked), resolve, blur, mipmap. Every
+// step is a pass of the graph and keeps the map's layers.
+#pragma once
+
+#include "shadow/map/raster.h"
+
+namespace gn {
+
+enum class BlurKernel { none, box, gaussian };
+
+/// What rasterization makes of the casters: a colour array, one layer a view.
+struct MomentMap {
+    std::string name = "map";
+    VkFormat format = VK_FORMAT_R32G32_SFLOAT;
+    int samples = 1;          ///< 1 or 4; resolved by the mean of the stored values
+    ClearValue clear;         ///< what a texel without caster stores
+    CasterFragment fragment;  ///< writes `layout(location = 0) out vec4 out_moments` from `depth`
+    std::function<void(Recorder&)> bind_values;
+    std::uint32_t mips = 1;  ///< of the returned texture; filled by add_mips
+};
+TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views, const MomentMap& map);
+
+/// A separable blur of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
+/// Gaussian of sigma = radius / 2 cut at radius. radius 0 or none returns the source. The result has `mips` levels.
+TextureHandle add_blur(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius,
+                       std::uint32_t mips = 1);
+
+/// Fills the mip chain of every layer by halving boxes.
+void add_mips(const FrameInput& input, TextureHandle texture);
+/// Levels of a full chain for this resolution.
+std::uint32_t full_chain(std::uint32_t resolution);
+
+/// One fragment pass a layer over a whole texture: `text` is GLSL with main(); `source` is bound as sampler2DArray
+/// "source" with the layer in push constant int `push_layer`, after your own declarations.
+struct LayerPass {
+    std::string name;
+    std::string text;  ///< must contain: layout(location = 0) out vec4 ...; reads `source`, `push_layer`, gl_FragCoord
+    SamplerDesc sampler;
+    std::vector<std::pair<std::string, TextureHandle>> more;  ///< further sampler2DArray textures by name
+    std::function<void(Recorder&)> bind_values;
+};
+void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass);
+
+/// The normalized weights of a blur, index 0 the centre: weights[0] + 2 sum(weights[1..radius]) = 1.
+std::vector<float> blur_weights(BlurKernel kernel, int radius);
+
+}  // namespace gn
