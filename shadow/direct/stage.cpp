@@ -90,7 +90,7 @@ vec4 light_point_ws(const GnLight& light) {
 }
 
 std::uint64_t geometry_hash(const Scene& scene, std::uint64_t salt) {
-    std::uint64_t hash = mix(salt + 1, &salt, sizeof salt);
+    std::uint64_t hash = mix(0x243F6A8885A308D3ULL, &salt, sizeof salt);
     hash = mix(hash, scene.positions_ws.data(), scene.positions_ws.size() * sizeof(vec3));
     return mix(hash, scene.triangles.data(), scene.triangles.size() * sizeof(uvec3));
 }
