@@ -21,8 +21,8 @@ struct TruthResult {
     std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
     std::vector<float> standard_error;  ///< per sample, of `visibility`
     std::vector<std::uint8_t> counted;  ///< 1 where gn_counted holds and a surface is seen
-    std::vector<float>
-        irradiance;  ///< with options.integral: unshadowed-geometry integral C eq. 1.3, same units as the light's irradiance; else empty
+    /// With options.integral: C eq. 1.3 without the material, lux; else empty. Range windows are left to shading.
+    std::vector<float> irradiance;
     double mean_standard_error = 0;  ///< mean of standard_error over counted samples
     double seconds = 0;
 };

@@ -16,6 +16,8 @@ namespace gn {
 struct Errors {
     std::size_t samples = 0;
     std::optional<double> rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker;
+    std::size_t dark = 0, lit = 0,
+                partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
 };
 
 struct MetricInfo {
@@ -25,16 +27,19 @@ struct MetricInfo {
 /// In the order of DESIGN: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker.
 std::span<const MetricInfo> all_metrics();
 
-/// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel.
+/// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a
+/// number counts as wholly wrong.
 Errors visibility_errors(std::span<const float> technique, std::span<const float> reference,
                          std::span<const std::uint8_t> counted, int width, int height);
 /// The pixels within one pixel of a discontinuity of R: what `edge` counts; exact methods are judged outside it.
-std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::span<const std::uint8_t> counted, int width,
-                                      int height);
-/// Several lights pooled: as if their samples were one list.
+/// 1 for a counted pixel when R spans at least one half over the counted pixels of its 3 x 3 neighbourhood.
+std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::span<const std::uint8_t> counted,
+                                      int width, int height);
+/// Several lights pooled: as if their samples were one list. Figures of pictures and paths are not samples of a light and
+/// stay absent.
 Errors pool(std::span<const Errors> lights);
 
-/// Display-ready RGB pictures in [0,1], sRGB-encoded.
+/// Display-ready RGB pictures in [0,1], sRGB-encoded, of one size. A fourth channel is ignored.
 double luma_rms(const Image& a, const Image& b);
 /// Mean FLIP, and its map when `map` is given. Andersson et al. 2020. pixels_per_degree as the paper's default.
 double flip(const Image& a, const Image& b, Image* map = nullptr, float pixels_per_degree = 67.0206F);

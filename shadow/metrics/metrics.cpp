@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/metrics/metrics.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+/// Sums over one set of samples.
+struct Sum {
+    std::size_t count = 0;
+    double absolute = 0, squares = 0;
+    void add(double difference) {
+        ++count;
+        absolute += std::abs(difference);
+        squares += difference * difference;
+    }
+    [[nodiscard]] std::optional<double> over_count(double sum) const {
+        return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    }
+    [[nodiscard]] std::optional<double> mean() const { return over_count(absolute); }
+    [[nodiscard]] std::optional<double> root_mean_square() const {
+        return count == 0 ? std::nullopt : std::optional(std::sqrt(squares / static_cast<double>(count)));
+    }
+};
+
+/// The mean of one figure over lights, each weighted by the samples that it was taken from.
+std::optional<double> weighted_mean(std::span<const Errors> lights, std::optional<double> Errors::*value,
+                                    std::size_t Errors::*weight, bool squared) {
+    double sum = 0;
+    double weights = 0;
+    for (const Errors& light : lights) {
+        if ((light.*value).has_value()) {
+            const double v = *(light.*value);
+            const auto w = static_cast<double>(light.*weight);
+            sum += w * (squared ? v * v : v);
+            weights += w;
+        }
+    }
+    if (weights <= 0) {
+        return std::nullopt;
+    }
+    return squared ? std::sqrt(sum / weights) : sum / weights;
+}
+
+}  // namespace
+
+std::span<const MetricInfo> all_metrics() {
+    static constexpr std::array<MetricInfo, 11> metrics{{
+        {"rmse", "Root mean square of T - R.", &Errors::rmse},
+        {"mae", "Mean of the absolute T - R.", &Errors::mae},
+        {"max", "Largest absolute T - R.", &Errors::max},
+        {"mismatch", "Fraction of samples where T and R differ by more than a half.", &Errors::mismatch},
+        {"leak", "Mean of T where R is 0: light where there is none.", &Errors::leak},
+        {"acne", "Mean of 1 - T where R is 1: shadow where there is none.", &Errors::acne},
+        {"penumbra", "Root mean square of T - R where R is between 0 and 1.", &Errors::penumbra},
+        {"edge", "Fraction of samples within one pixel of a discontinuity of R.", &Errors::edge},
+        {"luma_rms", "Root mean square difference of the pictures' luma, on the scale of 0 to 255.", &Errors::luma_rms},
+        {"flip", "Mean FLIP of the pictures: the difference an observer sees when they alternate.", &Errors::flip},
+        {"flicker", "Root mean square change of T - R between frames at reprojected samples.", &Errors::flicker},
+    }};
+    return metrics;
+}
+
+Errors visibility_errors(std::span<const float> technique, std::span<const float> reference,
+                         std::span<const std::uint8_t> counted, int width, int height) {
+    const std::vector<std::uint8_t> edges = edge_pixels(reference, counted, width, height);
+    GN_CHECK_EQ(technique.size(), reference.size());
+    Sum all;
+    Sum dark;
+    Sum lit;
+    Sum partial;
+    std::size_t mismatched = 0;
+    std::size_t edge = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        if (counted[i] == 0) {
+            continue;
+        }
+        const auto r = static_cast<double>(reference[i]);
+        const double wrong = r < 0.5 ? 1.0 : 0.0;
+        const double t = std::isfinite(technique[i]) ? static_cast<double>(technique[i]) : wrong;
+        const double difference = t - r;
+        all.add(difference);
+        (r <= 0.0 ? dark : r >= 1.0 ? lit : partial).add(difference);
+        mismatched += std::abs(difference) > 0.5 ? 1U : 0U;
+        edge += edges[i];
+        largest = std::max(largest, std::abs(difference));
+    }
+
+    Errors errors;
+    errors.samples = all.count;
+    errors.dark = dark.count;
+    errors.lit = lit.count;
+    errors.partial = partial.count;
+    errors.rmse = all.root_mean_square();
+    errors.mae = all.mean();
+    errors.max = all.count == 0 ? std::nullopt : std::optional(largest);
+    errors.mismatch = all.over_count(static_cast<double>(mismatched));
+    errors.leak = dark.mean();
+    errors.acne = lit.mean();
+    errors.penumbra = partial.root_mean_square();
+    errors.edge = all.over_count(static_cast<double>(edge));
+    return errors;
+}
+
+Errors pool(std::span<const Errors> lights) {
+    Errors pooled;
+    for (const Errors& light : lights) {
+        pooled.samples += light.samples;
+        pooled.dark += light.dark;
+        pooled.lit += light.lit;
+        pooled.partial += light.partial;
+        if (light.max.has_value()) {
+            pooled.max = std::max(pooled.max.value_or(0.0), *light.max);
+        }
+    }
+    pooled.rmse = weighted_mean(lights, &Errors::rmse, &Errors::samples, true);
+    pooled.mae = weighted_mean(lights, &Errors::mae, &Errors::samples, false);
+    pooled.mismatch = weighted_mean(lights, &Errors::mismatch, &Errors::samples, false);
+    pooled.leak = weighted_mean(lights, &Errors::leak, &Errors::dark, false);
+    pooled.acne = weighted_mean(lights, &Errors::acne, &Errors::lit, false);
+    pooled.penumbra = weighted_mean(lights, &Errors::penumbra, &Errors::partial, true);
+    pooled.edge = weighted_mean(lights, &Errors::edge, &Errors::samples, false);
+    return pooled;
+}
+
+}  // namespace gn

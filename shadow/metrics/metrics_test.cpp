@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/metrics/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gn {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Floats = std::vector<float>;
+
+TEST(Metrics, HandComputedPicture) {
+    // Eight samples, the last two not counted.
+    const Floats reference{0, 0, 1, 1, 0.5F, 0.25F, 1, 0};
+    const Floats technique{0, 0.75F, 1, 0.5F, 0.75F, 0.25F, 0, 1};
+    const Bytes counted{1, 1, 1, 1, 1, 1, 0, 0};
+    const Errors e = visibility_errors(technique, reference, counted, 8, 1);
+    EXPECT_EQ(e.samples, 6U);
+    EXPECT_DOUBLE_EQ(e.rmse.value(), std::sqrt((0.5625 + 0.25 + 0.0625) / 6));
+    EXPECT_DOUBLE_EQ(e.mae.value(), (0.75 + 0.5 + 0.25) / 6);
+    EXPECT_DOUBLE_EQ(e.max.value(), 0.75);
+    EXPECT_DOUBLE_EQ(e.mismatch.value(), 1.0 / 6);  // a difference of exactly one half is no mismatch
+    EXPECT_DOUBLE_EQ(e.leak.value(), 0.75 / 2);
+    EXPECT_DOUBLE_EQ(e.acne.value(), 0.5 / 2);
+    EXPECT_DOUBLE_EQ(e.penumbra.value(), std::sqrt(0.0625 / 2));
+    EXPECT_EQ(e.dark, 2U);
+    EXPECT_EQ(e.lit, 2U);
+    EXPECT_EQ(e.partial, 2U);
+    EXPECT_FALSE(e.luma_rms.has_value() || e.flip.has_value() || e.flicker.has_value());
+}
+
+TEST(Metrics, WhatHasNoSamplesIsAbsent) {
+    const Errors none = visibility_errors(Floats{1, 0}, Floats{0, 1}, Bytes{0, 0}, 2, 1);
+    EXPECT_EQ(none.samples, 0U);
+    for (const MetricInfo& metric : all_metrics()) {
+        EXPECT_FALSE((none.*metric.value).has_value()) << metric.name;
+    }
+    const Errors lit = visibility_errors(Floats{1, 0}, Floats{1, 1}, Bytes{1, 1}, 2, 1);
+    EXPECT_FALSE(lit.leak.has_value());
+    EXPECT_FALSE(lit.penumbra.has_value());
+    EXPECT_DOUBLE_EQ(lit.acne.value(), 0.5);
+    EXPECT_DOUBLE_EQ(lit.edge.value(), 0.0);
+    EXPECT_EQ(visibility_errors({}, {}, {}, 0, 0).samples, 0U);
+}
+
+TEST(Metrics, NotANumberIsWhollyWrong) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    const Errors e = visibility_errors(Floats{nan, infinity}, Floats{0, 1}, Bytes{1, 1}, 2, 1);
+    EXPECT_DOUBLE_EQ(e.rmse.value(), 1.0);
+    EXPECT_DOUBLE_EQ(e.mismatch.value(), 1.0);
+    EXPECT_DOUBLE_EQ(e.leak.value(), 1.0);
+    EXPECT_DOUBLE_EQ(e.acne.value(), 1.0);
+}
+
+TEST(Metrics, NamesAreInOrder) {
+    std::vector<std::string_view> names;
+    for (const MetricInfo& metric : all_metrics()) {
+        names.push_back(metric.name);
+        EXPECT_FALSE(metric.sentence.empty());
+    }
+    EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "penumbra",
+                                                    "edge", "luma_rms", "flip", "flicker"}));
+}
+
+TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
+    // Rows far apart in one picture: no neighbourhood joins the two lights' samples.
+    const Floats reference_a{0, 0, 1, 0.5F};
+    const Floats technique_a{0.25F, 0, 0.5F, 1};
+    const Bytes counted_a{1, 1, 1, 0};
+    const Floats reference_b{1, 1, 1, 0.75F};
+    const Floats technique_b{1, 0, 1, 0.25F};
+    const Bytes counted_b{1, 1, 1, 1};
+    const Errors a = visibility_errors(technique_a, reference_a, counted_a, 4, 1);
+    const Errors b = visibility_errors(technique_b, reference_b, counted_b, 4, 1);
+
+    Floats reference = reference_a;
+    Floats technique = technique_a;
+    Bytes counted = counted_a;
+    reference.insert(reference.end(), 4, 0.0F);
+    technique.insert(technique.end(), 4, 0.0F);
+    counted.insert(counted.end(), 4, 0);
+    reference.insert(reference.end(), reference_b.begin(), reference_b.end());
+    technique.insert(technique.end(), technique_b.begin(), technique_b.end());
+    counted.insert(counted.end(), counted_b.begin(), counted_b.end());
+    const Errors expected = visibility_errors(technique, reference, counted, 4, 3);
+
+    const std::vector<Errors> lights{a, b, Errors{}};
+    const Errors pooled = pool(lights);
+    EXPECT_EQ(pooled.samples, expected.samples);
+    for (const MetricInfo& metric : all_metrics()) {
+        ASSERT_EQ((pooled.*metric.value).has_value(), (expected.*metric.value).has_value()) << metric.name;
+        if ((expected.*metric.value).has_value()) {
+            EXPECT_NEAR((pooled.*metric.value).value(), (expected.*metric.value).value(), 1e-12) << metric.name;
+        }
+    }
+    EXPECT_EQ(pool({}).samples, 0U);
+    EXPECT_FALSE(pool({}).rmse.has_value());
+}
+
+TEST(Edge, HardBorderMarksBothSides) {
+    // A vertical border between columns 2 and 3 of a 6 x 3 picture.
+    Floats reference;
+    for (int y = 0; y < 3; ++y) {
+        reference.insert(reference.end(), {0, 0, 0, 1, 1, 1});
+    }
+    const Bytes row{0, 0, 1, 1, 0, 0};
+    Bytes expected;
+    for (int y = 0; y < 3; ++y) {
+        expected.insert(expected.end(), row.begin(), row.end());
+    }
+    EXPECT_EQ(edge_pixels(reference, Bytes(18, 1), 6, 3), expected);
+    const Errors e = visibility_errors(reference, reference, Bytes(18, 1), 6, 3);
+    EXPECT_DOUBLE_EQ(e.edge.value(), 1.0 / 3);
+}
+
+TEST(Edge, DiagonalNeighboursBelong) {
+    const Floats reference{1, 0, 0,  //
+                           0, 0, 0,  //
+                           0, 0, 0};
+    EXPECT_EQ(edge_pixels(reference, Bytes(9, 1), 3, 3), (Bytes{1, 1, 0, 1, 1, 0, 0, 0, 0}));
+}
+
+TEST(Edge, NarrowPenumbraeAreDiscontinuitiesAndWideOnesAreNot) {
+    const Bytes all(5, 1);
+    EXPECT_EQ(edge_pixels(Floats{0, 0, 0.5F, 1, 1}, all, 5, 1), (Bytes{0, 1, 1, 1, 0}));
+    EXPECT_EQ(edge_pixels(Floats{0, 0.2F, 0.4F, 0.6F, 0.8F}, all, 5, 1), (Bytes{0, 0, 0, 0, 0}));
+}
+
+TEST(Edge, UncountedPixelsHaveNoSide) {
+    EXPECT_EQ(edge_pixels(Floats{1, 1, 0, 0, 0}, Bytes{1, 1, 0, 0, 0}, 5, 1), (Bytes{0, 0, 0, 0, 0}));
+    EXPECT_EQ(edge_pixels(Floats{1, 0, 0, 0, 0}, Bytes{1, 1, 0, 1, 1}, 5, 1), (Bytes{1, 1, 0, 0, 0}));
+}
+
+TEST(Luma, HandComputed) {
+    Image a(2, 1, 3);
+    Image b(2, 1, 3);
+    b.at(0, 0, 0) = 1;
+    EXPECT_NEAR(luma_rms(a, b), 255 * 0.299 / std::sqrt(2.0), 1e-9);
+    b.at(0, 0, 1) = b.at(0, 0, 2) = 1;
+    EXPECT_NEAR(luma_rms(a, b), 255 / std::sqrt(2.0), 1e-9);
+    EXPECT_EQ(luma_rms(b, b), 0.0);
+    // A change of hue with the same luma does not show.
+    a.at(1, 0, 0) = 0.587F;
+    b.at(1, 0, 1) = 0.299F;
+    b.at(0, 0, 0) = b.at(0, 0, 1) = b.at(0, 0, 2) = 0;
+    EXPECT_NEAR(luma_rms(a, b), 0.0, 1e-5);
+    // The fourth channel is ignored.
+    EXPECT_EQ(luma_rms(Image(2, 2, 4, 0.5F), Image(2, 2, 3, 0.5F)), 0.0);
+}
+
+}  // namespace
+}  // namespace gn
