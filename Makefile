@@ -37,7 +37,7 @@ test: packages
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan --log-level=WARNING
 	@cmake --build build/asan -j $(JOBS)
-	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --embed --bundle --count build/count.txt
+	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --tidy --embed --bundle --count build/count.txt
 
 install: packages
 	@cmake --preset release --log-level=WARNING
