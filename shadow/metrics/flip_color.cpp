@@ -11,9 +11,10 @@ dvec3 xyz_from_xy(double x, double y) {
     return {x / y, 1.0, (1.0 - x - y) / y};
 }
 
-/// Columns are the primaries of sRGB, scaled so that their sum is the white D65; rows divided by that white.
+/// Columns are the primaries of sRGB, scaled so that their sum is the white; rows divided by that white. The white is D65
+/// to five digits as the authors of [ANA+20] have it, where sRGB rounds to four.
 glm::dmat3 white_relative_matrix() {
-    const dvec3 white = xyz_from_xy(0.3127, 0.3290);
+    const dvec3 white = xyz_from_xy(0.31271, 0.32902);
     const glm::dmat3 primaries(xyz_from_xy(0.64, 0.33), xyz_from_xy(0.30, 0.60), xyz_from_xy(0.15, 0.06));
     const dvec3 scale = glm::inverse(primaries) * white;
     glm::dmat3 matrix(primaries[0] * scale.x / white, primaries[1] * scale.y / white, primaries[2] * scale.z / white);

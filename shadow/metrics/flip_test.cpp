@@ -112,6 +112,7 @@ TEST(FlipColor, PublishedColours) {
     EXPECT_LT(glm::length(linear_from_xyz(xyz_from_ycxcz(ycxcz_from_xyz(xyz_from_linear(rgb)))) - rgb), 1e-5F);
     EXPECT_LT(glm::length(ycxcz_from_xyz(xyz_from_linear(vec3(1))) - vec3(100, 0, 0)), 1e-3F);
     EXPECT_LT(glm::length(hunt_adjusted({50, 20, -30}) - vec3(50, 10, -15)), 1e-5F);
+    EXPECT_NEAR(largest_difference(), 41.276F, 5e-4F);
     EXPECT_FLOAT_EQ(hyab({10, 3, 4}, {20, 0, 0}), 15.0F);
 }
 
