@@ -45,7 +45,7 @@ struct Weighted {
     float value, weight;
 };
 
-// The values below and above which 1 % of the weight lies.
+// The values below and above which 2 % of the weight lies.
 void trim_axis(std::vector<Weighted>& samples, float& low, float& high) {
     std::sort(samples.begin(), samples.end(), [](Weighted a, Weighted b) { return a.value < b.value; });
     double total = 0.0;
@@ -56,11 +56,11 @@ void trim_axis(std::vector<Weighted>& samples, float& low, float& high) {
     bool below = true;
     for (const Weighted s : samples) {
         sum += static_cast<double>(s.weight);
-        if (below && sum > 0.01 * total) {
+        if (below && sum > 0.02 * total) {
             low = s.value;
             below = false;
         }
-        if (sum >= 0.99 * total) {
+        if (sum >= 0.98 * total) {
             high = s.value;
             return;
         }
@@ -77,16 +77,16 @@ float triangle_size(const Scene& scene, uvec3 t) {
 }  // namespace
 
 Box main_bounds(const Scene& scene) {
-    // Weigh each triangle by its size (the root of its area), at most 1 % of the whole, so that neither a crumb far
+    // Weigh each triangle by its size (the root of its area), at most a quarter percent of the whole, so that neither a crumb far
     // away nor one vast ground plane decides what the picture shows. A hundred thousand triangles are sample enough.
     const std::size_t step = std::max<std::size_t>(1, scene.triangles.size() / 100'000);
     double total = 0.0;
     for (std::size_t i = 0; i < scene.triangles.size(); i += step) {
         total += static_cast<double>(triangle_size(scene, scene.triangles[i]));
     }
-    const auto heaviest = static_cast<float>(0.01 * total);
+    const auto heaviest = static_cast<float>(0.0025 * total);
 
-    // Trim 1 % at both ends of each axis.
+    // Trim 2 % at both ends of each axis.
     Box box = scene.bounds_ws;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<Weighted> samples;
@@ -100,7 +100,11 @@ Box main_bounds(const Scene& scene) {
     }
 
     // Where trimming takes little away there are no outliers: show everything.
-    return box.empty() || box.diagonal() > 0.7F * scene.bounds_ws.diagonal() ? scene.bounds_ws : box;
+    if (box.empty() || box.diagonal() > 0.7F * scene.bounds_ws.diagonal()) {
+        return scene.bounds_ws;
+    }
+    const vec3 margin(0.1F * box.extent());
+    return {box.min - margin, box.max + margin};
 }
 
 namespace {

@@ -35,7 +35,7 @@ Flaw find_flaw(const Scene& scene, uvec3 t) {
 
 void note_count(Scene& scene, std::size_t count, const char* what) {
     if (count > 0) {
-        add_note(scene.notes, fmt::format("{} triangle{} {}.", count, count == 1 ? "" : "s", what));
+        add_note(scene.notes, fmt::format("Dropped {} triangle{} {}.", count, count == 1 ? "" : "s", what));
     }
 }
 
@@ -70,9 +70,9 @@ void drop_bad_triangles(Scene& scene) {
     scene.triangles.resize(kept);
     scene.objects = std::move(objects);
 
-    note_count(scene, counts[1], "named vertices that are not there and were dropped");
-    note_count(scene, counts[2], "had corners that are not finite or beyond 1e9 m and were dropped");
-    note_count(scene, counts[3], "had no area and were dropped");
+    note_count(scene, counts[1], "with vertices that are not there");
+    note_count(scene, counts[2], "with corners that are not finite or beyond 1e9 m");
+    note_count(scene, counts[3], "without area");
 }
 
 namespace {

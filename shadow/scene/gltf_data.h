@@ -21,7 +21,8 @@ struct File {
     std::size_t triangles_decoded = 0;  ///< of all primitives so far, before instancing
 };
 
-/// Throws Error for nesting or a number of values that only an attack has.
+/// Throws Error for what is no JSON, for nesting or a number of values that only an attack has, and for indices,
+/// counts and lists of another type: the parser would quietly read them as absent.
 void check_json(std::string_view json, const std::string& shown);
 /// Reads a .gltf or .glb; external files only from its folder. Throws Error.
 File parse_file(const std::filesystem::path& path);

@@ -6,33 +6,6 @@
 
 namespace gn::gltf {
 
-void check_json(std::string_view json, const std::string& shown) {
-    // The parser recurses on nesting and spends hundreds of bytes on a value: count both first.
-    constexpr std::size_t most_values = 8'000'000;
-    constexpr int deepest = 128;
-    std::size_t values = 0;
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            i += c == '\\' ? 1U : 0U;
-            in_string = c != '"';
-            continue;
-        }
-        in_string = c == '"';
-        const bool opens = c == '{' || c == '[';
-        depth += opens ? 1 : c == '}' || c == ']' ? -1 : 0;
-        values += opens || c == ',' ? 1U : 0U;
-        if (depth > deepest) {
-            fail("{}: the JSON nests deeper than {} levels", shown, deepest);
-        }
-    }
-    if (values > most_values) {
-        fail("{}: the JSON holds {} values; at most {} are read", shown, values, most_values);
-    }
-}
-
 namespace {
 
 // What the callbacks of the parser need.

@@ -64,7 +64,7 @@ std::vector<uvec3> read_triangles(File& file, const tinygltf::Primitive& primiti
         }
     }
     if (dropped > 0) {
-        add_note(file.notes, fmt::format("{} triangles named vertices that are not there and were dropped.", dropped));
+        add_note(file.notes, fmt::format("Dropped {} triangles with vertices that are not there.", dropped));
     }
     if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
         add_note(file.notes, fmt::format("A list of {} indices is no multiple of 3; the rest was dropped.", count));

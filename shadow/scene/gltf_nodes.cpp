@@ -37,6 +37,9 @@ std::vector<int> find_parents(const File& file) {
         for (const int child : nodes[n].children) {
             at(nodes, child, file, "node");
             int& parent = parents[static_cast<std::size_t>(child)];
+            if (parent == static_cast<int>(n)) {
+                fail("{}: node {} lists node {} twice; nodes must form trees", file.shown, n, child);
+            }
             if (parent >= 0) {
                 fail("{}: node {} is a child of nodes {} and {}; nodes must form trees", file.shown, child, parent, n);
             }

@@ -35,7 +35,7 @@ class Repair {
 void repair_spot(GnLight& shape, Repair& repair) {
     const float outer = std::acos(std::clamp(shape.cos_outer, -1.0F, 1.0F));
     const float inner = std::acos(std::clamp(shape.cos_inner, -1.0F, 1.0F));
-    const float good_outer = repair.within(outer, narrowest_cone, widest_cone, 0.785F, "an outer cone of (rad)");
+    const float good_outer = repair.within(outer, narrowest_cone, widest_cone, 0.785F, "an outer cone (rad) of");
     // The soft rim needs some width, or its division has nothing to divide by.
     const float good_inner = inner < 0.999F * good_outer ? inner : 0.999F * good_outer;
     shape.cos_outer = good_outer == outer ? shape.cos_outer : std::cos(good_outer);
@@ -116,7 +116,6 @@ void complete_lights(Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         Light& light = scene.lights[i];
-        repair_light(light, scene.notes);
 
         // Lights are asked for by name: a second "lamp" becomes "lamp 2".
         const std::string base = light.name.empty() ? "light" : light.name;
@@ -128,6 +127,7 @@ void complete_lights(Scene& scene) {
         for (int number = 2; taken(); ++number) {
             light.name = fmt::format("{} {}", base, number);
         }
+        repair_light(light, scene.notes);
     }
 }
 

@@ -220,12 +220,12 @@ class MeshMaker {
 
 void note_oddities(const ObjFile& file, std::size_t dropped, std::vector<std::string>& notes) {
     const std::array<std::pair<std::size_t, const char*>, 3> counts{
-        {{dropped, "faces named vertices that are not there or had fewer than 3 corners and were dropped"},
-         {file.odd_numbers, "coordinates were no numbers and are read as 0"},
-         {file.lines_and_points, "lines and points were skipped: only faces cast shadows"}}};
+        {{dropped, "Dropped {} faces with vertices that are not there or fewer than 3 corners."},
+         {file.odd_numbers, "Read {} coordinates that are no numbers as 0."},
+         {file.lines_and_points, "Skipped {} lines and points: only faces cast shadows."}}};
     for (const auto& [count, sentence] : counts) {
         if (count > 0) {
-            add_note(notes, fmt::format("{} {}.", count, sentence));
+            add_note(notes, fmt::format(fmt::runtime(sentence), count));
         }
     }
 }
