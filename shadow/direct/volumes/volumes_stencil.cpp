@@ -15,8 +15,8 @@ layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Edges { uvec2 edges[]; };
 layout(binding = 3, scalar) readonly buffer Sides { uint sides[]; };
-invariant gl_Position;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+invariant gl_Position;
 void main() {
     uint side = sides[uint(gl_VertexIndex) / u.frame.corners];
     uint corner = uint(gl_VertexIndex) % u.frame.corners;
@@ -39,8 +39,8 @@ layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
 layout(binding = 3, scalar) readonly buffer Caps { uint caps[]; };
-invariant gl_Position;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+invariant gl_Position;
 void main() {
     uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
     uint slot = uint(gl_VertexIndex) / corners;
