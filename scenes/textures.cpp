@@ -57,7 +57,7 @@ std::vector<Leaf> twig_leaves(std::uint32_t seed) {
         const float length = dice.between(0.22F, 0.30F) * (1.05F - 0.35F * along);
         leaves.push_back({{0.5F + 0.03F * std::sin(9 * along), 1 - along},
                           length * vec2(std::sin(turn), -std::cos(turn)),
-                          dice.between(0.30F, 0.38F),
+                          dice.between(0.38F, 0.48F),
                           dice.between(0.75F, 1.25F)});
     }
     return leaves;

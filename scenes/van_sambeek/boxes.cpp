@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "boxes" of section 4.1.2: fifty boxes on a grey plane under one distant area light, seen from afar.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "car" of section 4.1.2: a car on a box under two near area lights.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "disco box" of section 4.1.2: a box among three near area lights in red, green and blue.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The performance scenes of section 4.1.1: objects of equal triangle count in a square raster under spot lights.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"

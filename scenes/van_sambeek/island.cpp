@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "island" of section 4.1.2: an island in the sea under one light so far away that no penumbra shows.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"
@@ -72,10 +72,9 @@ void add_terrain(MeshBuilder& builder) {
         const vec3 n(pa.y - pb.y, 0, pb.x - pa.x);
         const float ya = std::max(terrain(pa.x, pa.y), bottom + 0.5F),
                     yb = std::max(terrain(pb.x, pb.y), bottom + 0.5F);
-        const auto q0 = builder.vertex({pa.x, bottom, pa.y}, -n, vec2(0)),
-                   q1 = builder.vertex({pb.x, bottom, pb.y}, -n, vec2(0));
-        const auto q2 = builder.vertex({pb.x, yb, pb.y}, -n, vec2(0)),
-                   q3 = builder.vertex({pa.x, ya, pa.y}, -n, vec2(0));
+        const auto q0 = builder.vertex({pa.x, bottom, pa.y}, n, vec2(0)),
+                   q1 = builder.vertex({pb.x, bottom, pb.y}, n, vec2(0));
+        const auto q2 = builder.vertex({pb.x, yb, pb.y}, n, vec2(0)), q3 = builder.vertex({pa.x, ya, pa.y}, n, vec2(0));
         builder.triangle(q0, q1, q2);
         builder.triangle(q0, q2, q3);
     }

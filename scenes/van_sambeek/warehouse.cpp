@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [vSam07]
+// Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The two scenes "warehouse" of section 4.1.2: the same hall from inside, under one near area light, and from outside,
 // with camera and light far away and close together.
 #include "scenes/analytic.h"
