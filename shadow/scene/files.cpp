@@ -41,7 +41,7 @@ Folder::Folder(const fs::path& model_file) {
     const fs::path parent = model_file.parent_path();
     root_ = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
     if (error) {
-        fail("{}: its folder cannot be opened", clean_text(model_file.string()));
+        fail("{}: no such file (its folder cannot be opened)", clean_text(model_file.string()));
     }
 }
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// What every finished scene promises, and the camera's matrices.
+#include "shadow/scene/model.h"
+#include "shadow/scene/testing.h"
+
+namespace gn {
+namespace {
+
+using namespace testing_scene;
+
+Scene cube(vec3 centre, float half) {
+    Scene scene;
+    scene.name = "cube";
+    for (unsigned i = 0; i < 8; ++i) {
+        const vec3 sign((i & 1U) != 0U ? 1 : -1, (i & 2U) != 0U ? 1 : -1, (i & 4U) != 0U ? 1 : -1);
+        scene.positions_ws.push_back(centre + half * sign);
+    }
+    scene.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return scene;
+}
+
+TEST(Finish, AnEmptySceneIsLegal) {
+    Scene scene;
+    finish_scene(scene);
+    EXPECT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.lights.size(), 1U);
+    EXPECT_EQ(scene.cameras.size(), 1U);
+    EXPECT_TRUE(scene.bounds_ws.empty());
+}
+
+TEST(Finish, BadTrianglesGoAndObjectsStayContiguous) {
+    Scene scene = cube(vec3(0), 1.0F);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    scene.positions_ws.insert(scene.positions_ws.end(), {vec3(nan, 0, 0), vec3(1e20F, 0, 0), vec3(0)});
+    scene.triangles.insert(scene.triangles.begin(), {uvec3(0, 1, 8), uvec3(0, 1, 9), uvec3(0, 1, 77), uvec3(0, 1, 1)});
+    scene.objects = {{.name = "bad", .first_triangle = 0, .triangle_count = 4},
+                     {.name = "good", .first_triangle = 4, .triangle_count = 12}};
+    finish_scene(scene);
+    ASSERT_EQ(scene.triangles.size(), 12U);
+    ASSERT_EQ(scene.objects.size(), 1U);
+    EXPECT_EQ(scene.objects[0].name, "good");
+    EXPECT_EQ(scene.objects[0].first_triangle, 0U);
+    EXPECT_EQ(scene.bounds_ws.max, vec3(1));
+    EXPECT_TRUE(has_note(scene, "Dropped 2 triangles with corners that are not finite"));
+    EXPECT_TRUE(has_note(scene, "Dropped 1 triangle with vertices that are not there"));
+    EXPECT_TRUE(has_note(scene, "Dropped 1 triangle without area"));
+    for (const vec3& p : scene.positions_ws) {
+        EXPECT_TRUE(finite(p));
+    }
+}
+
+TEST(Finish, NormalsBreakAtCreasesAndBlendAcrossSmoothEdges) {
+    Scene scene = cube(vec3(0), 1.0F);
+    finish_scene(scene);
+    EXPECT_EQ(scene.positions_ws.size(), 24U);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const vec3 face = glm::normalize(winding(scene, i));
+        for (int corner = 0; corner < 3; ++corner) {
+            EXPECT_GT(glm::dot(face, scene.normals_ws[scene.triangles[i][corner]]), 0.9999F) << i;
+        }
+    }
+
+    // Two faces 20 degrees apart share the normal in the middle along their edge, even across split vertices.
+    Scene roof;
+    const float rise = std::tan(10.0F * pi / 180.0F);
+    roof.positions_ws = {{-1, 0, 0}, {0, rise, 0}, {0, rise, 1}, {1, 0, 0}, {0, rise, 1}, {0, rise, 0}};
+    roof.triangles = {{0, 2, 1}, {5, 4, 3}};
+    finish_scene(roof);
+    EXPECT_GT(roof.normals_ws[roof.triangles[0].z].y, 0.99999F);
+    EXPECT_EQ(roof.positions_ws.size(), 6U);
+}
+
+TEST(Finish, AFanOfManyTrianglesTakesNoQuadraticTime) {
+    Scene scene;
+    scene.positions_ws.emplace_back(0, 1, 0);
+    constexpr unsigned count = 200'000;
+    for (unsigned i = 0; i <= count; ++i) {
+        const float angle = 2.0F * pi * static_cast<float>(i) / static_cast<float>(count);
+        scene.positions_ws.emplace_back(1e4F * std::cos(angle), 0, 1e4F * std::sin(angle));
+        if (i > 0) {
+            scene.triangles.emplace_back(0, i + 1, i);
+        }
+    }
+    finish_scene(scene);
+    EXPECT_GT(scene.normals_ws[0].y, 0.99F);
+}
+
+TEST(Finish, FarScenesAreMovedToZeroAndNearOnesAreNot) {
+    Scene far = cube(vec3(1000, 0, 0), 1.0F);
+    far.cameras.push_back({.position_ws = vec3(1000, 0, 5)});
+    Light lamp;
+    lamp.shape.kind = GN_LIGHT_POINT;
+    lamp.shape.position_ws = vec4(1000, 3, 0, 1);
+    far.lights.push_back(lamp);
+    finish_scene(far);
+    EXPECT_EQ(dvec3(far.bounds_ws.centre()) + far.origin, dvec3(1000, 0, 0));
+    EXPECT_LT(glm::length(far.bounds_ws.centre()), 4.0F);
+    EXPECT_EQ(dvec3(far.cameras[0].position_ws) + far.origin, dvec3(1000, 0, 5));
+    EXPECT_EQ(dvec3(vec3(far.lights[0].shape.position_ws)) + far.origin, dvec3(1000, 3, 0));
+
+    Scene near = cube(vec3(20, 0, 0), 1.0F);
+    finish_scene(near);
+    EXPECT_EQ(near.origin, dvec3(0.0));
+}
+
+TEST(Finish, TheDefaultCameraSeesTheWholeScene) {
+    Scene scene = cube(vec3(3, 1, 2), 0.5F);
+    finish_scene(scene);
+    const Camera& camera = scene.cameras.at(0);
+    const mat4 cs_from_ws = cs_from_vs(camera, 1.0F) * vs_from_ws(camera);
+    for (const vec3 corner : scene.bounds_ws.corners()) {
+        const vec4 p_cs = cs_from_ws * vec4(corner, 1.0F);
+        EXPECT_LE(std::max(std::abs(p_cs.x), std::abs(p_cs.y)), p_cs.w);
+        EXPECT_GT(p_cs.z, 0.0F);
+        EXPECT_LT(p_cs.z, p_cs.w);
+    }
+    const GnLight& sun = scene.lights.at(0).shape;
+    const float elevation = std::asin(-sun.direction_ws.y) * 180.0F / pi;
+    EXPECT_GE(elevation, 45.0F);
+    EXPECT_LE(elevation, 55.0F);
+    EXPECT_FLOAT_EQ(sun.angular_radius, 0.00465F);
+}
+
+TEST(Finish, ACrumbFarAwayDoesNotShrinkThePicture) {
+    Scene scene;
+    for (int x = 0; x < 20; ++x) {
+        for (int z = 0; z < 20; ++z) {
+            const auto first = static_cast<std::uint32_t>(scene.positions_ws.size());
+            const vec3 p(x, 0, z);
+            scene.positions_ws.insert(scene.positions_ws.end(), {p, p + vec3(0, 0, 1), p + vec3(1, 0, 0)});
+            scene.triangles.emplace_back(first, first + 1, first + 2);
+        }
+    }
+    const auto first = static_cast<std::uint32_t>(scene.positions_ws.size());
+    scene.positions_ws.insert(scene.positions_ws.end(), {vec3(900, 0, 0), vec3(900, 0, 1), vec3(901, 0, 0)});
+    scene.triangles.emplace_back(first, first + 1, first + 2);
+    finish_scene(scene);
+    EXPECT_FLOAT_EQ(scene.bounds_ws.max.x, 901.0F);
+    const Box main = main_bounds(scene);
+    EXPECT_LT(main.max.x, 25.0F);
+    EXPECT_GT(main.max.x, 18.0F);
+    EXPECT_LT(glm::length(scene.cameras[0].position_ws), 100.0F);
+}
+
+TEST(Finish, LightsAreCappedAndNamesBecomeUnique) {
+    Scene scene = cube(vec3(0), 1.0F);
+    scene.lights.resize(100);
+    for (Light& light : scene.lights) {
+        light.name = "lamp";
+    }
+    finish_scene(scene);
+    EXPECT_EQ(scene.lights.size(), max_lights);
+    EXPECT_EQ(scene.lights[0].name, "lamp");
+    EXPECT_EQ(scene.lights[1].name, "lamp 2");
+    EXPECT_TRUE(has_note(scene, "36 lights were dropped"));
+}
+
+TEST(Camera, DepthIsReversedAndYPointsDown) {
+    Camera camera;
+    camera.position_ws = vec3(1, 2, 3);
+    camera.near = 0.1F;
+    camera.far = 100.0F;
+    camera.yfov = 1.0F;
+    const mat4 cs_from_ws = cs_from_vs(camera, 2.0F) * vs_from_ws(camera);
+    const vec4 near = cs_from_ws * vec4(1, 2, 3 - 0.1F, 1);
+    const vec4 far = cs_from_ws * vec4(1, 2, 3 - 100.0F, 1);
+    EXPECT_NEAR(near.z / near.w, 1.0F, 1e-5F);
+    EXPECT_NEAR(far.z / far.w, 0.0F, 1e-6F);
+    EXPECT_FLOAT_EQ(far.w, 100.0F);
+
+    // The top edge of the picture lies at half the field of view; the right edge at twice that slope.
+    const float slope = std::tan(0.5F);
+    const vec4 top = cs_from_ws * vec4(1, 2 + 10 * slope, 3 - 10, 1);
+    EXPECT_NEAR(top.y / top.w, -1.0F, 1e-5F);
+    const vec4 right = cs_from_ws * vec4(1 + 20 * slope, 2, 3 - 10, 1);
+    EXPECT_NEAR(right.x / right.w, 1.0F, 1e-5F);
+}
+
+TEST(LoadScene, UnknownNamesAndFilesAreOneSentence) {
+    EXPECT_NE(error_of("no-such-scene"), "");
+    EXPECT_NE(error_of("no/such.glb").find("no such file"), std::string::npos);
+    EXPECT_NE(error_of("/dev/zero").find("are not read"), std::string::npos);
+    const TempFolder folder;
+    EXPECT_NE(error_of(folder.path().string()), "");
+    std::filesystem::create_directory(folder.path() / "a.glb");
+    EXPECT_NE(error_of((folder.path() / "a.glb").string()).find("not a plain file"), std::string::npos);
+    EXPECT_NE(error_of(folder.write("a.xyz", "x")).find("known are .glb"), std::string::npos);
+}
+
+TEST(LoadScene, FormatsThroughAssimp) {
+    const TempFolder folder;
+    const Scene scene = load_scene(folder.write(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+    ASSERT_EQ(scene.triangles.size(), 1U);
+    EXPECT_GT(winding(scene, 0).z, 0.0F);
+    EXPECT_NE(error_of(folder.write("b.ply", "ply\nnonsense")), "");
+}
+
+}  // namespace
+}  // namespace gn
