@@ -45,7 +45,7 @@ void add_lights(Scene& scene) {
     lantern.shape.position_ws = vec4(lantern_at, 0);
     lantern.shape.radius = 0.05F;
     lantern.shape.color = vec4(1.0F, 0.62F, 0.28F, 1);
-    lantern.shape.intensity = 700;
+    lantern.shape.intensity = 800;
     lantern.shape.range = 30;
     scene.lights.push_back(lantern);
 
@@ -57,7 +57,7 @@ void add_lights(Scene& scene) {
     spot.shape.direction_ws = vec4(glm::normalize(target - at), 0);
     spot.shape.radius = 0.02F;
     spot.shape.color = vec4(0.72F, 0.86F, 1.0F, 1);
-    spot.shape.intensity = 24000;
+    spot.shape.intensity = 36000;
     spot.shape.cos_inner = std::cos(glm::radians(20.0F));
     spot.shape.cos_outer = std::cos(glm::radians(28.0F));
     spot.shape.range = 40;
@@ -66,7 +66,7 @@ void add_lights(Scene& scene) {
 
 void add_cameras(Scene& scene) {
     scene.cameras.push_back(look_at("main", {-3.0F, 1.75F, 9.0F}, {0.95F, 1.12F, -3.0F}, 46, 0.1F, 120));
-    scene.cameras.push_back(look_at("arcade", {-7.4F, 2.0F, -3.6F}, {0.6F, 1.5F, -8.1F}, 56, 0.1F, 120));
+    scene.cameras.push_back(look_at("arcade", {-5.3F, 2.0F, -6.75F}, {0.6F, 1.35F, -8.2F}, 60, 0.1F, 120));
     scene.cameras.push_back(look_at("tree", {0.2F, 1.5F, 6.0F}, {2.9F, 1.55F, 0.8F}, 58, 0.1F, 120));
     scene.cameras.push_back(look_at("gate", {1.2F, 1.6F, 2.6F}, {6.6F, 0.75F, -1.6F}, 56, 0.1F, 120));
 

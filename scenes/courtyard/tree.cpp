@@ -90,7 +90,7 @@ void add_one_tree(MeshBuilder& builder, const Materials& m, vec3 foot, std::uint
     // Cards around every sprout; a few hundred leaves hang from each bough.
     builder.begin("leaves (sheet)", m.leaves);
     for (const Sprout& s : sprouts) {
-        for (int c = 0; c < 10; ++c) {
+        for (int c = 0; c < 7; ++c) {
             const vec3 loose(dice.between(-1, 1), dice.between(-0.7F, 1), dice.between(-1, 1));
             const vec3 near = s.at + 0.16F * vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
             add_card(builder, dice, near, glm::normalize(0.5F * s.along + loose), crown);
@@ -109,7 +109,7 @@ void add_one_tree(MeshBuilder& builder, const Materials& m, vec3 foot, std::uint
 
 void add_tree(MeshBuilder& builder, const Materials& m) {
     // The second one stands beside the main view and only throws its shadow into it.
-    add_one_tree(builder, m, {3.6F, -0.02F, 1.3F}, 47);
+    add_one_tree(builder, m, {3.6F, -0.02F, 1.3F}, 59);
     add_one_tree(builder, m, {5.1F, -0.02F, 6.1F}, 53);
 }
 
