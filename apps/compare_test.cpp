@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// gnomon compare and render from outside: the schema, the figures' sense, refusals, resuming, stopping.
+#include "apps/subprocess_test.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace gn {
+namespace {
+
+using nlohmann::json;
+using Words = std::vector<std::string>;
+
+/// Small enough for a software driver.
+Words small(Words arguments) {
+    for (const char* word : {"--size", "96x64", "--samples", "16", "--repeat", "1"}) {
+        arguments.emplace_back(word);
+    }
+    return arguments;
+}
+
+/// Validates against apps/schema/compare.schema.json with Python's jsonschema.
+void expect_valid(const json& document) {
+    const ScratchFolder folder;
+    folder.write("document.json", document.dump());
+    const std::string script =
+        "import json, sys, jsonschema; jsonschema.validate(*[json.load(open(p)) for p in sys.argv[1:]])";
+    const std::string command = "python3 -W ignore -c '" + script + "' '" + (folder / "document.json") + "' '" +
+                                GNOMON_SOURCE_DIR "/apps/schema/compare.schema.json' > '" + (folder / "said") +
+                                "' 2>&1";
+    if (std::system("python3 -c 'import jsonschema' 2> /dev/null") != 0) {
+        GTEST_SKIP() << "the Python module jsonschema is not installed";
+    }
+    EXPECT_EQ(std::system(command.c_str()), 0) << file_text(folder / "said");
+}
+
+const json& run_of(const json& document, const std::string& recipe) {
+    for (const json& run : document.at("runs")) {
+        if (run.at("recipe") == recipe) {
+            return run;
+        }
+    }
+    throw std::runtime_error("no run of " + recipe);
+}
+
+TEST(Compare, JsonIsAloneOnStandardOutputAndFollowsTheSchema) {
+    const CommandResult result =
+        run_gnomon(small({"compare", "slab", "-r", "none", "hard", "--validate", "--json", "-"}));
+    ASSERT_EQ(result.status, 0) << result.err;
+    const json document = json::parse(result.out);
+    expect_valid(document);
+    ASSERT_EQ(document.at("runs").size(), 2U);
+    // A shadow map is nearer to the truth than no shadow, costs time and takes its texels' memory.
+    const json &none = run_of(document, "none"), &hard = run_of(document, "hard");
+    EXPECT_LT(hard.at("error").at("rmse").get<double>(), none.at("error").at("rmse").get<double>());
+    EXPECT_GT(none.at("error").at("leak").get<double>(), 0.5);
+    EXPECT_EQ(none.at("error").at("acne").get<double>(), 0.0);
+    EXPECT_EQ(none.at("memory").at("bytes").get<std::uint64_t>() < hard.at("memory").at("bytes").get<std::uint64_t>(),
+              true);
+    EXPECT_GE(hard.at("memory").at("bytes").get<std::uint64_t>(), 1024U * 1024U * 4U);
+    EXPECT_LE(hard.at("time_ms").at("shadow").at("median").get<double>(),
+              hard.at("time_ms").at("frame").at("median").get<double>());
+    EXPECT_EQ(hard.at("size"), json({96, 64}));
+    EXPECT_GT(hard.at("samples").get<int>(), 1000);
+}
+
+TEST(Compare, OverridesReachTheRecipe) {
+    const CommandResult result = run_gnomon(small({"compare", "slab", "-r", "hard,resolution=256", "--json", "-"}));
+    ASSERT_EQ(result.status, 0) << result.err;
+    const json run = json::parse(result.out).at("runs").at(0);
+    EXPECT_EQ(run.at("overrides"), "resolution=256");
+    bool found = false;
+    for (const json& resource : run.at("memory").at("resources")) {
+        found = found || resource.at("bytes") == 256 * 256 * 4;
+    }
+    EXPECT_TRUE(found) << run.at("memory").dump();
+}
+
+TEST(Compare, WritesAReportWhosePicturesAreThere) {
+    const ScratchFolder folder;
+    const CommandResult result = run_gnomon(small({"compare", "slab", "-r", "hard", "-o", folder / "report"}));
+    ASSERT_EQ(result.status, 0) << result.err;
+    expect_has(result.out, {"rmse"});
+    // Take the data out of the page as a browser does.
+    const std::string page = file_text(folder / "report/index.html");
+    const std::string mark = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t begin = page.find(mark) + mark.size();
+    const json data = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    for (const std::string& name : {data.at("runs").at(0).at("picture").get<std::string>(),
+                                    data.at("runs").at(0).at("error_map").get<std::string>(),
+                                    data.at("scenes").at(0).at("reference").at("picture").get<std::string>()}) {
+        EXPECT_TRUE(file_text(folder / ("report/" + name)).starts_with("\x89PNG")) << name;
+    }
+    EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org/")) << "the page loads something from a network";
+    EXPECT_EQ(page.find("https://"), std::string::npos);
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+TEST(Compare, TheSameCommandGoesOnWhereItStopped) {
+    const ScratchFolder folder;
+    const Words first =
+        small({"compare", "slab", "-r", "hard", "-o", folder / "report", "--json", folder / "first.json"});
+    const Words second =
+        small({"compare", "slab", "-r", "hard", "none", "-o", folder / "report", "--json", folder / "second.json"});
+    ASSERT_EQ(run_gnomon(first).status, 0);
+    ASSERT_EQ(run_gnomon(second).status, 0);
+    const json one = json::parse(file_text(folder / "first.json")),
+               two = json::parse(file_text(folder / "second.json"));
+    // A measured time never repeats to the last digit: equal ones were kept, the truth's included.
+    EXPECT_EQ(one.at("runs").at(0), two.at("runs").at(0));
+    EXPECT_EQ(one.at("reference").at("seconds"), two.at("reference").at("seconds"));
+    EXPECT_EQ(two.at("runs").size(), 2U);
+    // Asked for fresh figures, it measures: errors repeat, times do not.
+    Words fresh = first;
+    fresh.emplace_back("--fresh");
+    ASSERT_EQ(run_gnomon(fresh).status, 0);
+    const json three = json::parse(file_text(folder / "first.json"));
+    EXPECT_EQ(one.at("runs").at(0).at("error"), three.at("runs").at(0).at("error"));
+    EXPECT_NE(one.at("runs").at(0).at("time_ms"), three.at("runs").at(0).at("time_ms"));
+}
+
+TEST(Compare, ABadSceneLeavesTheOthersMeasured) {
+    const ScratchFolder folder;
+    folder.write("noise.glb", "glTF but not really");
+    const CommandResult result =
+        run_gnomon(small({"compare", folder / "noise.glb", "slab", "-r", "none", "--json", "-"}));
+    EXPECT_EQ(result.status, 2);
+    expect_has(result.err, {"noise.glb"});
+    const json document = json::parse(result.out);
+    expect_valid(document);
+    EXPECT_EQ(document.at("runs").at(0).at("status"), "failed");
+    EXPECT_TRUE(document.at("runs").at(0).at("error").at("rmse").is_null());
+    EXPECT_EQ(document.at("runs").at(1).at("status"), "ok");
+}
+
+TEST(Compare, UnknownLightsListTheKnown) {
+    const CommandResult result = run_gnomon(small({"compare", "slab", "-r", "none", "--light", "moon", "--json", "-"}));
+    EXPECT_EQ(result.status, 2);
+    expect_has(result.err, {"moon", "valid names are"});
+}
+
+TEST(Compare, RefusedIsNoFailureUnlessStrict) {
+    // A single flat map cannot surround a point light.
+    const Words asked =
+        small({"compare", "courtyard", "-r", "hard,placement=fit", "--light", "lantern", "--json", "-"});
+    const CommandResult lenient = run_gnomon(asked);
+    EXPECT_EQ(lenient.status, 0) << lenient.err;
+    const json document = json::parse(lenient.out);
+    expect_valid(document);
+    const json& run = document.at("runs").at(0);
+    EXPECT_EQ(run.at("status"), "refused");
+    expect_has(run.at("reason").get<std::string>(), {"fit", "point"});
+    EXPECT_EQ(run.at("lights").at(0).at("status"), "refused");
+    EXPECT_TRUE(run.at("time_ms").at("shadow").at("median").is_null());
+    Words strict = asked;
+    strict.emplace_back("--strict");
+    EXPECT_EQ(run_gnomon(strict).status, 1);
+}
+
+TEST(Compare, AStoppedComparisonKeepsWhatItHas) {
+    const ScratchFolder folder;
+    Words arguments = small({"compare", "slab", "-o", folder / "report", "--json", folder / "figures.json", "-r"});
+    for (int resolution = 64; resolution < 264; ++resolution) {
+        arguments.insert(arguments.end() - 6, "-r");
+        arguments.insert(arguments.end() - 6, "hard,resolution=" + std::to_string(resolution));
+    }
+    arguments.erase(std::find(arguments.begin(), arguments.end(), "-r"));
+    // Ask to stop once the first run is on disk.
+    RunningCommand running(arguments);
+    while (!running.finished() && !std::filesystem::exists(folder / "figures.json")) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    running.signal(SIGTERM);
+    const CommandResult result = running.wait();
+    EXPECT_EQ(result.status, 1) << result.err;
+    expect_has(result.err, {"stopped"});
+    const json document = json::parse(file_text(folder / "figures.json"));
+    expect_valid(document);
+    EXPECT_GE(document.at("runs").size(), 1U);
+    EXPECT_LT(document.at("runs").size(), 200U);
+    expect_has(file_text(folder / "report/index.html"), {"resolution=64"});
+}
+
+TEST(Render, WritesAPictureAndTheVisibilityOfEveryLight) {
+    const ScratchFolder folder;
+    const CommandResult result = run_gnomon({"render", "courtyard", "-r", "pcf", "--size", "96x64", "-o",
+                                             folder / "out.png", "--visibility", folder / "v.exr", "--validate"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(file_text(folder / "out.png").starts_with("\x89PNG"));
+    const std::string layers = file_text(folder / "v.exr");
+    EXPECT_TRUE(layers.starts_with("\x76\x2f\x31\x01"));
+    expect_has(layers.substr(0, 400), {"V.0.", "V.2."});
+}
+
+TEST(Doctor, SaysWhatThisMachineCanDo) {
+    const CommandResult result = run_gnomon({"doctor"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    expect_has(result.out, {"recipes and shaders: ", "ruled out"});
+}
+
+}  // namespace
+}  // namespace gn
