@@ -15,7 +15,7 @@ float square(float x) {
 
 /// 1 inside the inner cone, 0 outside the outer one, a squared ramp of the cosine between (glTF KHR_lights_punctual).
 float spot_falloff(const GnLight& light, float cosine) {
-    const float width = std::max(0.001F, light.cos_inner - light.cos_outer);
+    const float width = std::max(1e-4F, light.cos_inner - light.cos_outer);
     return square(std::clamp((cosine - light.cos_outer) / width, 0.0F, 1.0F));
 }
 
