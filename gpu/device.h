@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gn {
@@ -60,6 +61,7 @@ struct AdoptedDevice {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;
+    std::vector<Feature> enabled{};  ///< optional features that the host enabled; Vulkan cannot be asked
 };
 
 class Device {

@@ -13,7 +13,11 @@
 #include "gpu/pipeline.h"
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace gn {
 
@@ -32,8 +36,12 @@ struct BufferHandle {
 struct Range {
     std::uint32_t mip = 0, mips = ~0U, layer = 0, layers = ~0U;
 };
-inline Range one_layer(std::uint32_t layer, std::uint32_t mip = 0) { return {mip, 1, layer, 1}; }
-inline Range one_mip(std::uint32_t mip) { return {mip, 1, 0, ~0U}; }
+inline Range one_layer(std::uint32_t layer, std::uint32_t mip = 0) {
+    return {mip, 1, layer, 1};
+}
+inline Range one_mip(std::uint32_t mip) {
+    return {mip, 1, 0, ~0U};
+}
 
 enum class Load { clear, keep, discard };
 struct ClearValue {
@@ -54,9 +62,15 @@ struct SamplerDesc {
     float anisotropy = 0.0F;  ///< 0 or 1: off
     bool operator==(const SamplerDesc&) const = default;
 };
-inline SamplerDesc nearest() { return {}; }
-inline SamplerDesc linear() { return {.filter = VK_FILTER_LINEAR}; }
-inline SamplerDesc trilinear() { return {.filter = VK_FILTER_LINEAR, .mip_linear = true}; }
+inline SamplerDesc nearest() {
+    return {};
+}
+inline SamplerDesc linear() {
+    return {.filter = VK_FILTER_LINEAR};
+}
+inline SamplerDesc trilinear() {
+    return {.filter = VK_FILTER_LINEAR, .mip_linear = true};
+}
 
 class PassBuilder {
   public:
@@ -64,7 +78,9 @@ class PassBuilder {
     // Attachments; all of a pass have the same extent. A range with several layers makes a layered pass (gl_Layer).
     virtual void color(TextureHandle target, Load load, ClearValue clear = {}, Range range = {0, 1, 0, 1}) = 0;
     virtual void depth(TextureHandle target, Load load, ClearValue clear = {}, Range range = {0, 1, 0, 1}) = 0;
-    virtual void depth_read_only(TextureHandle target, Range range = {0, 1, 0, 1}) = 0;  ///< tested, not written (stencil may be)
+    /// Tested, not written; the stencil beside it may be, and starts at `clear_stencil` where that is given.
+    virtual void depth_read_only(TextureHandle target, Range range = {0, 1, 0, 1},
+                                 std::optional<std::uint32_t> clear_stencil = {}) = 0;
     // Shader access.
     virtual void sample(TextureHandle texture, Range range = {}) = 0;
     virtual void storage_read(TextureHandle texture, Range range = {}) = 0;
@@ -82,15 +98,17 @@ class PassBuilder {
     virtual void keep() = 0;
 };
 
-/// What an execute lambda records with. Only declared resources may be used (checked). Inside a pass with attachments
-/// rendering has begun, viewport and scissor cover the whole target.
+/// What an execute lambda records with. Only declared resources may be used (checked: Error names pass and resource).
+/// Inside a pass with attachments rendering has begun, viewport and scissor cover the whole target. In a pass without
+/// attachments the commands see each other's results in order.
 class Recorder {
   public:
     virtual ~Recorder() = default;
     virtual void bind(const ComputeDesc& desc) = 0;
     virtual void bind(const RasterDesc& desc) = 0;
     // Resources by the name they have in the shader; a name the bound shaders do not use is ignored.
-    virtual void set(std::string_view name, TextureHandle texture, const SamplerDesc& sampler = {}, Range range = {}) = 0;
+    virtual void set(std::string_view name, TextureHandle texture, const SamplerDesc& sampler = {},
+                     Range range = {}) = 0;
     virtual void set_storage(std::string_view name, TextureHandle texture, Range range = {0, 1, 0, ~0U}) = 0;
     virtual void set(std::string_view name, BufferHandle buffer) = 0;
     /// A uniform (or read-only storage) block with these bytes, valid for the following draws of this pass.
@@ -121,7 +139,8 @@ class Recorder {
     void dispatch_pixels(std::uint32_t width, std::uint32_t height) { dispatch((width + 7) / 8, (height + 7) / 8); }
     virtual void blit(TextureHandle from, Range from_range, TextureHandle to, Range to_range, VkFilter filter) = 0;
     virtual void copy(TextureHandle from, BufferHandle to, Range range) = 0;
-    virtual void copy(BufferHandle from, BufferHandle to, VkDeviceSize bytes, VkDeviceSize from_offset = 0, VkDeviceSize to_offset = 0) = 0;
+    virtual void copy(BufferHandle from, BufferHandle to, VkDeviceSize bytes, VkDeviceSize from_offset = 0,
+                      VkDeviceSize to_offset = 0) = 0;
     virtual void fill(BufferHandle buffer, std::uint32_t word) = 0;
     [[nodiscard]] virtual const TextureDesc& desc(TextureHandle texture) const = 0;
     [[nodiscard]] virtual VkCommandBuffer vk() const = 0;
@@ -137,10 +156,12 @@ struct ResourceBytes {
     bool transient = true;
 };
 struct GraphStatistics {
-    std::vector<PassTime> passes;         ///< in order of execution, culled ones left out
-    std::vector<ResourceBytes> resources; ///< used ones
-    VkDeviceSize transient_bytes = 0;     ///< memory really taken, with aliasing
+    std::vector<PassTime> passes;          ///< in order of execution, culled ones left out
+    std::vector<ResourceBytes> resources;  ///< used ones
+    VkDeviceSize transient_bytes = 0;      ///< memory really taken, with aliasing
 };
+
+struct GraphPlan;
 
 class FrameGraph {
   public:
@@ -151,7 +172,7 @@ class FrameGraph {
 
     TextureHandle create(const TextureDesc& desc);  ///< transient; contents undefined before the first write
     BufferHandle create(const BufferDesc& desc);
-    TextureHandle import(Texture2D& texture);       ///< must outlive the graph
+    TextureHandle import(Texture2D& texture);  ///< must outlive the graph
     BufferHandle import(const Buffer& buffer);
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const;
     [[nodiscard]] const BufferDesc& desc(BufferHandle buffer) const;
@@ -175,6 +196,8 @@ class FrameGraph {
     std::vector<std::byte> download(BufferHandle buffer);
     /// Passes, their ports and barriers as text, for reports and tests.
     [[nodiscard]] std::string describe() const;
+    /// The barriers and the memory that execute would use now; needs no GPU (gpu/null_device.h).
+    [[nodiscard]] const GraphPlan& plan();
     [[nodiscard]] Device& device();
 
   private:

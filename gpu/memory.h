@@ -4,6 +4,7 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/memory_pool.h"
 
 #include <cstddef>
 #include <span>
@@ -13,23 +14,26 @@ namespace gn {
 
 struct BufferDesc {
     std::string name;
-    VkDeviceSize bytes = 0;          ///< 0 is rounded up to 16: empty scenes are legal
-    VkBufferUsageFlags usage = 0;    ///< transfer source and destination are always added
-    bool host_visible = false;       ///< mapped and coherent
+    VkDeviceSize bytes = 0;        ///< 0 is rounded up to 16: empty scenes are legal
+    VkBufferUsageFlags usage = 0;  ///< transfer source and destination are always added
+    bool host_visible = false;     ///< mapped and coherent
 };
 
 struct TextureDesc {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
     std::uint32_t width = 1, height = 1, layers = 1, mips = 1, samples = 1;
-    VkImageUsageFlags usage = 0;     ///< the graph derives it for transient textures
-    bool cube = false;               ///< a cube-compatible view is possible (layers a multiple of six)
+    VkImageUsageFlags usage = 0;  ///< the graph derives it for transient textures
+    bool cube = false;            ///< a cube-compatible view is possible (layers a multiple of six)
 };
 
 /// Bytes of all texels, mips, layers and samples; the report's arithmetic, without alignment.
 VkDeviceSize texel_bytes(const TextureDesc& desc);
 bool is_depth(VkFormat format);
 bool has_stencil(VkFormat format);
+/// Bytes of one texel; of a depth-stencil format's depth alone, as a download delivers it. Throws Error if unknown.
+VkDeviceSize format_bytes(VkFormat format);
+VkImageAspectFlags aspects_of(VkFormat format);
 
 class Buffer {
   public:
@@ -40,14 +44,13 @@ class Buffer {
     ~Buffer();
     [[nodiscard]] VkBuffer vk() const { return buffer_; }
     [[nodiscard]] const BufferDesc& desc() const { return desc_; }
-    [[nodiscard]] std::byte* mapped() const { return mapped_; }  ///< null unless host_visible
+    [[nodiscard]] std::byte* mapped() const { return memory_.mapped; }  ///< null unless host_visible
 
   private:
     Device* device_ = nullptr;
     BufferDesc desc_;
     VkBuffer buffer_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    std::byte* mapped_ = nullptr;
+    MemorySlice memory_;
 };
 
 class Texture2D {
@@ -66,7 +69,7 @@ class Texture2D {
     Device* device_ = nullptr;
     TextureDesc desc_;
     VkImage image_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    MemorySlice memory_;
 };
 
 /// A buffer with `data` in it (device local on a GPU, through staging).

@@ -34,9 +34,9 @@ struct RasterDesc {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front faces are counter-clockwise seen in world space
     bool depth_test = false, depth_write = false, depth_clamp = false;
     VkCompareOp depth_compare = VK_COMPARE_OP_GREATER;
-    bool depth_bias = false;               ///< slope and constant set through the recorder
+    bool depth_bias = false;  ///< slope and constant set through the recorder
     std::optional<StencilOps> stencil;
-    Blend blend = Blend::none;             ///< for every colour attachment
+    Blend blend = Blend::none;  ///< for every colour attachment
     VkColorComponentFlags color_mask = 0xF;
     struct Attribute {
         std::uint32_t location, offset;

@@ -29,13 +29,22 @@ struct ShaderSource {
 struct ShaderBinding {
     std::uint32_t binding = 0;
     std::uint32_t vk_descriptor_type = 0;
+    std::uint32_t image_dim = 1;                                  ///< images: 0 1D, 1 2D, 2 3D, 3 cube, 5 buffer
+    bool arrayed = false, multisampled = false, integer = false;  ///< images: as the shader declares them
+    std::uint32_t block_bytes = 0;                                ///< blocks: of the part with a fixed size
+    /// Whether two stages mean the same resource; they may see different lengths of a block.
+    [[nodiscard]] bool same_resource(const ShaderBinding& o) const {
+        return binding == o.binding && vk_descriptor_type == o.vk_descriptor_type && image_dim == o.image_dim &&
+               arrayed == o.arrayed && multisampled == o.multisampled && integer == o.integer;
+    }
 };
 
 struct CompiledShader {
     ShaderKind kind = ShaderKind::compute;
     std::string name;
     std::vector<std::uint32_t> spirv;
-    std::map<std::string, ShaderBinding, std::less<>> bindings;  ///< set 0 only, by the variable's (or block's instance, else block's) name
+    std::map<std::string, ShaderBinding, std::less<>>
+        bindings;  ///< set 0 only, by the variable's (or block's instance, else block's) name
     std::uint32_t push_constant_bytes = 0;
 };
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan instance, with validation when asked.
+#pragma once
+
+#include "gpu/device.h"
+
+#include <mutex>
+
+namespace gn {
+
+/// What the validation layers say, collected from any thread.
+struct MessageLog {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+};
+
+class Instance {
+  public:
+    /// Throws Error when there is no Vulkan loader or driver, or validation is asked for and not installed.
+    Instance(bool validation, MessageLog& log);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    [[nodiscard]] VkInstance vk() const { return instance_; }
+    [[nodiscard]] bool labels() const { return labels_; }  ///< VK_EXT_debug_utils is on
+
+  private:
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    bool labels_ = false;
+};
+
+}  // namespace gn

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/pipeline.h"
+
+#include "gpu/pipeline_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace gn {
+namespace {
+
+constexpr std::uint32_t most_pushed_descriptors = 32;
+constexpr std::uint32_t most_push_constant_bytes = 128;
+
+VkShaderStageFlagBits stage_of(ShaderKind kind) {
+    switch (kind) {
+        case ShaderKind::vertex: return VK_SHADER_STAGE_VERTEX_BIT;
+        case ShaderKind::fragment: return VK_SHADER_STAGE_FRAGMENT_BIT;
+        case ShaderKind::geometry: return VK_SHADER_STAGE_GEOMETRY_BIT;
+        case ShaderKind::compute: break;
+    }
+    return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+void hash(Hasher& hasher, const ShaderSource& shader) {
+    hasher.value(shader.kind).text(shader.name).text(shader.text);
+}
+
+void hash(Hasher& hasher, const SpecConstants& constants) {
+    hasher.value(constants.size());
+    for (const auto& [id, value] : constants) {
+        hasher.value(id).value(value);
+    }
+}
+
+void hash(Hasher& hasher, const VkStencilOpState& ops) {
+    hasher.value(ops.failOp).value(ops.passOp).value(ops.depthFailOp).value(ops.compareOp);
+    hasher.value(ops.compareMask).value(ops.writeMask);
+}
+
+Fingerprint fingerprint(const RasterDesc& desc, const AttachmentFormats& formats) {
+    Hasher hasher;
+    hash(hasher, desc.vertex);
+    hasher.value(desc.geometry.has_value()).value(desc.fragment.has_value());
+    if (desc.geometry) {
+        hash(hasher, *desc.geometry);
+    }
+    if (desc.fragment) {
+        hash(hasher, *desc.fragment);
+    }
+    hash(hasher, desc.constants);
+    hasher.value(desc.topology).value(desc.cull).value(desc.depth_test).value(desc.depth_write).value(desc.depth_clamp);
+    hasher.value(desc.depth_compare).value(desc.depth_bias).value(desc.blend).value(desc.color_mask);
+    hasher.value(desc.stencil.has_value());
+    if (desc.stencil) {
+        hash(hasher, desc.stencil->front);
+        hash(hasher, desc.stencil->back);
+    }
+    hasher.value(desc.vertex_stride).value(desc.attributes.size());
+    for (const RasterDesc::Attribute& attribute : desc.attributes) {
+        hasher.value(attribute.location).value(attribute.offset).value(attribute.format);
+    }
+    hasher.value(formats.depth).value(formats.samples).value(formats.colors.size());
+    for (const VkFormat format : formats.colors) {
+        hasher.value(format);
+    }
+    return hasher.finish();
+}
+
+/// Specialization constants in the form that Vulkan takes; must not move while in use.
+struct Specialization {
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    VkSpecializationInfo info{};
+
+    explicit Specialization(const SpecConstants& constants) {
+        for (const auto& [id, value] : constants) {
+            entries.push_back({id, static_cast<std::uint32_t>(values.size() * 4), 4});
+            values.push_back(value);
+        }
+        info = {static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+};
+
+/// A shader module that lives as long as the pipeline is being made.
+class Module {
+  public:
+    Module(VkDevice device, const CompiledShader& shader, const Specialization& specialization)
+        : device_(device), stage_(stage_of(shader.kind)), info_(&specialization.info) {
+        const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = shader.spirv.size() * 4,
+                                            .pCode = shader.spirv.data()};
+        GN_VK(vkCreateShaderModule(device, &info, nullptr, &module_));
+    }
+    Module(Module&& other) noexcept
+        : device_(other.device_), stage_(other.stage_), info_(other.info_), module_(std::exchange(other.module_, {})) {}
+    Module& operator=(Module&&) = delete;
+    ~Module() { vkDestroyShaderModule(device_, module_, nullptr); }
+    [[nodiscard]] VkPipelineShaderStageCreateInfo stage() const {
+        return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = stage_,
+                .module = module_,
+                .pName = "main",
+                .pSpecializationInfo = info_};
+    }
+
+  private:
+    VkDevice device_;
+    VkShaderStageFlagBits stage_;
+    const VkSpecializationInfo* info_;
+    VkShaderModule module_ = VK_NULL_HANDLE;
+};
+
+VkPipelineColorBlendAttachmentState blend_state(const RasterDesc& desc) {
+    VkPipelineColorBlendAttachmentState state{.colorWriteMask = desc.color_mask};
+    const auto set = [&](VkBlendOp op, VkBlendFactor source, VkBlendFactor target, VkBlendFactor source_alpha) {
+        state.blendEnable = VK_TRUE;
+        state.colorBlendOp = state.alphaBlendOp = op;
+        state.srcColorBlendFactor = source;
+        state.srcAlphaBlendFactor = source_alpha;
+        state.dstColorBlendFactor = state.dstAlphaBlendFactor = target;
+    };
+    switch (desc.blend) {
+        case Blend::add: set(VK_BLEND_OP_ADD, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE); break;
+        case Blend::min: set(VK_BLEND_OP_MIN, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE); break;
+        case Blend::max: set(VK_BLEND_OP_MAX, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE); break;
+        case Blend::alpha:
+            set(VK_BLEND_OP_ADD, VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_FACTOR_ONE);
+            break;
+        case Blend::none:
+        case Blend::logic_or: break;
+    }
+    return state;
+}
+
+/// Every fixed-function state of a raster pipeline; its members point at each other, so it stays where it is made.
+struct FixedState {
+    VkVertexInputBindingDescription vertex_binding{};
+    std::vector<VkVertexInputAttributeDescription> vertex_attributes;
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+    VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+
+    FixedState(const RasterDesc& desc, const AttachmentFormats& formats) {
+        set_vertices(desc);
+        set_raster(desc, formats);
+        set_outputs(desc, formats);
+    }
+    FixedState(const FixedState&) = delete;
+    FixedState& operator=(const FixedState&) = delete;
+
+    void set_vertices(const RasterDesc& desc) {
+        vertex_binding = {0, desc.vertex_stride, VK_VERTEX_INPUT_RATE_VERTEX};
+        for (const RasterDesc::Attribute& attribute : desc.attributes) {
+            vertex_attributes.push_back({attribute.location, 0, attribute.format, attribute.offset});
+        }
+        vertices.vertexBindingDescriptionCount = desc.attributes.empty() ? 0 : 1;
+        vertices.pVertexBindingDescriptions = &vertex_binding;
+        vertices.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(vertex_attributes.size());
+        vertices.pVertexAttributeDescriptions = vertex_attributes.data();
+        assembly.topology = desc.topology;
+    }
+
+    void set_raster(const RasterDesc& desc, const AttachmentFormats& formats) {
+        viewport.viewportCount = viewport.scissorCount = 1;
+        raster.depthClampEnable = desc.depth_clamp ? VK_TRUE : VK_FALSE;
+        raster.polygonMode = VK_POLYGON_MODE_FILL;
+        raster.cullMode = desc.cull;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.depthBiasEnable = desc.depth_bias ? VK_TRUE : VK_FALSE;
+        raster.lineWidth = 1.0F;
+        samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(formats.samples);
+        depth.depthTestEnable = desc.depth_test || desc.depth_write ? VK_TRUE : VK_FALSE;
+        depth.depthWriteEnable = desc.depth_write ? VK_TRUE : VK_FALSE;
+        depth.depthCompareOp = desc.depth_test ? desc.depth_compare : VK_COMPARE_OP_ALWAYS;
+        depth.stencilTestEnable = desc.stencil ? VK_TRUE : VK_FALSE;
+        if (desc.stencil) {
+            depth.front = desc.stencil->front;
+            depth.back = desc.stencil->back;
+        }
+    }
+
+    void set_outputs(const RasterDesc& desc, const AttachmentFormats& formats) {
+        blends.assign(formats.colors.size(), blend_state(desc));
+        blend.logicOpEnable = desc.blend == Blend::logic_or ? VK_TRUE : VK_FALSE;
+        blend.logicOp = VK_LOGIC_OP_OR;
+        blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
+        blend.pAttachments = blends.data();
+        static constexpr std::array states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                           VK_DYNAMIC_STATE_DEPTH_BIAS, VK_DYNAMIC_STATE_STENCIL_REFERENCE};
+        dynamic.dynamicStateCount = static_cast<std::uint32_t>(states.size());
+        dynamic.pDynamicStates = states.data();
+        rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.colors.size());
+        rendering.pColorAttachmentFormats = formats.colors.data();
+        rendering.depthAttachmentFormat = formats.depth;
+        rendering.stencilAttachmentFormat = has_stencil(formats.depth) ? formats.depth : VK_FORMAT_UNDEFINED;
+    }
+};
+
+}  // namespace
+
+std::vector<PipelineBinding> merge_bindings(std::span<const CompiledShader* const> stages) {
+    std::vector<PipelineBinding> merged;
+    for (const CompiledShader* stage : stages) {
+        for (const auto& [name, shader] : stage->bindings) {
+            // The same number must mean the same thing in every stage, and the same name the same number.
+            const auto clash =
+                std::find_if(merged.begin(), merged.end(), [&, &found = shader, &label = name](const auto& m) {
+                    return m.name == label || m.shader.binding == found.binding;
+                });
+            if (clash == merged.end()) {
+                merged.push_back({name, shader, static_cast<VkShaderStageFlags>(stage_of(stage->kind))});
+                continue;
+            }
+            if (clash->name != name || !clash->shader.same_resource(shader)) {
+                fail(
+                    "shader '{}': '{}' (binding {}) disagrees with '{}' (binding {}) of an earlier stage or "
+                    "declaration; one "
+                    "name needs one binding and type in all stages",
+                    stage->name, name, shader.binding, clash->name, clash->shader.binding);
+            }
+            clash->shader.block_bytes = std::max(clash->shader.block_bytes, shader.block_bytes);
+            clash->stages |= static_cast<VkShaderStageFlags>(stage_of(stage->kind));
+        }
+    }
+    if (merged.size() > most_pushed_descriptors) {
+        fail("shader '{}' uses {} resources; at most {} can be bound", stages.back()->name, merged.size(),
+             most_pushed_descriptors);
+    }
+    return merged;
+}
+
+PipelineCache::PipelineCache(Device& device) : device_(device) {}
+
+PipelineCache::~PipelineCache() {
+    for (auto& [key, pipeline] : pipelines_) {
+        destroy(pipeline);
+    }
+    for (const auto& [key, sampler] : samplers_) {
+        vkDestroySampler(device_.vk(), sampler, nullptr);
+    }
+}
+
+void PipelineCache::destroy(Pipeline& pipeline) const {
+    vkDestroyPipeline(device_.vk(), pipeline.vk, nullptr);
+    vkDestroyPipelineLayout(device_.vk(), pipeline.layout, nullptr);
+    vkDestroyDescriptorSetLayout(device_.vk(), pipeline.set_layout, nullptr);
+}
+
+Pipeline PipelineCache::lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point) {
+    Pipeline pipeline{.name = stages.back()->name, .bind_point = bind_point, .bindings = merge_bindings(stages)};
+    for (const CompiledShader* stage : stages) {
+        pipeline.stages |= static_cast<VkShaderStageFlags>(stage_of(stage->kind));
+        pipeline.push_constant_bytes = std::max(pipeline.push_constant_bytes, stage->push_constant_bytes);
+    }
+    if (pipeline.push_constant_bytes > most_push_constant_bytes) {
+        fail("shader '{}' has {} bytes of push constants; at most {} are allowed", pipeline.name,
+             pipeline.push_constant_bytes, most_push_constant_bytes);
+    }
+
+    // One set, pushed with every draw.
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const PipelineBinding& binding : pipeline.bindings) {
+        bindings.push_back({binding.shader.binding, static_cast<VkDescriptorType>(binding.shader.vk_descriptor_type), 1,
+                            binding.stages, nullptr});
+    }
+    const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                              .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+                                              .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                              .pBindings = bindings.data()};
+    GN_VK(vkCreateDescriptorSetLayout(device_.vk(), &set, nullptr, &pipeline.set_layout));
+    const VkPushConstantRange push{pipeline.stages, 0, (pipeline.push_constant_bytes + 3) / 4 * 4};
+    const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                            .setLayoutCount = 1,
+                                            .pSetLayouts = &pipeline.set_layout,
+                                            .pushConstantRangeCount = push.size > 0 ? 1U : 0U,
+                                            .pPushConstantRanges = &push};
+    GN_VK(vkCreatePipelineLayout(device_.vk(), &layout, nullptr, &pipeline.layout));
+    return pipeline;
+}
+
+const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
+    Hasher hasher;
+    hash(hasher, desc.shader);
+    hash(hasher, desc.constants);
+    const Fingerprint key = hasher.finish();
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+    const CompiledShader* shader = &device_.shaders().compile(desc.shader);
+    Pipeline pipeline = lay_out(std::span(&shader, 1), VK_PIPELINE_BIND_POINT_COMPUTE);
+    const Specialization specialization(desc.constants);
+    const Module module(device_.vk(), *shader, specialization);
+    const VkComputePipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
+    GN_VK(vkCreateComputePipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    return pipelines_.emplace(key, std::move(pipeline)).first->second;
+}
+
+const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
+    const Fingerprint key = fingerprint(desc, formats);
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+
+    // Compile the stages that are there.
+    std::vector<const CompiledShader*> shaders{&device_.shaders().compile(desc.vertex)};
+    if (desc.geometry) {
+        shaders.push_back(&device_.shaders().compile(*desc.geometry));
+    }
+    if (desc.fragment) {
+        shaders.push_back(&device_.shaders().compile(*desc.fragment));
+    }
+    Pipeline pipeline = lay_out(shaders, VK_PIPELINE_BIND_POINT_GRAPHICS);
+    const Specialization specialization(desc.constants);
+    std::vector<Module> modules;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    for (const CompiledShader* shader : shaders) {
+        stages.push_back(modules.emplace_back(device_.vk(), *shader, specialization).stage());
+    }
+
+    FixedState fixed(desc, formats);
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &fixed.rendering,
+                                            .stageCount = static_cast<std::uint32_t>(stages.size()),
+                                            .pStages = stages.data(),
+                                            .pVertexInputState = &fixed.vertices,
+                                            .pInputAssemblyState = &fixed.assembly,
+                                            .pViewportState = &fixed.viewport,
+                                            .pRasterizationState = &fixed.raster,
+                                            .pMultisampleState = &fixed.samples,
+                                            .pDepthStencilState = &fixed.depth,
+                                            .pColorBlendState = &fixed.blend,
+                                            .pDynamicState = &fixed.dynamic,
+                                            .layout = pipeline.layout};
+    GN_VK(vkCreateGraphicsPipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    return pipelines_.emplace(key, std::move(pipeline)).first->second;
+}
+
+VkSampler PipelineCache::sampler(const SamplerDesc& desc) {
+    const VkSamplerAddressMode v = desc.address_v == VK_SAMPLER_ADDRESS_MODE_MAX_ENUM ? desc.address : desc.address_v;
+    const Fingerprint key = Hasher()
+                                .value(desc.filter)
+                                .value(desc.mip_linear)
+                                .value(desc.address)
+                                .value(v)
+                                .value(desc.border)
+                                .value(desc.compare.value_or(VK_COMPARE_OP_MAX_ENUM))
+                                .value(desc.anisotropy)
+                                .finish();
+    if (const auto found = samplers_.find(key); found != samplers_.end()) {
+        return found->second;
+    }
+    const bool anisotropic = desc.anisotropy > 1.0F && device_.has(Feature::anisotropy);
+    const VkSamplerCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = desc.filter,
+        .minFilter = desc.filter,
+        .mipmapMode = desc.mip_linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .addressModeU = desc.address,
+        .addressModeV = v,
+        .addressModeW = desc.address,
+        .anisotropyEnable = anisotropic ? VK_TRUE : VK_FALSE,
+        .maxAnisotropy = std::min(desc.anisotropy, device_.properties().limits.maxSamplerAnisotropy),
+        .compareEnable = desc.compare ? VK_TRUE : VK_FALSE,
+        .compareOp = desc.compare.value_or(VK_COMPARE_OP_ALWAYS),
+        .maxLod = VK_LOD_CLAMP_NONE,
+        .borderColor = desc.border,
+    };
+    VkSampler sampler = VK_NULL_HANDLE;
+    GN_VK(vkCreateSampler(device_.vk(), &info, nullptr, &sampler));
+    samplers_.emplace(key, sampler);
+    return sampler;
+}
+
+ShaderSource fullscreen_vertex_shader() {
+    return {ShaderKind::vertex, "fullscreen", R"(
+layout(location = 0) out vec2 uv;
+void main() {
+    uv = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 2.0;
+    gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+}
+)"};
+}
+
+RasterDesc fullscreen(ShaderSource fragment) {
+    return {.vertex = fullscreen_vertex_shader(), .fragment = std::move(fragment)};
+}
+
+}  // namespace gn

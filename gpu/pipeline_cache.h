@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Compiled pipelines by the fingerprint of their description, and samplers by theirs.
+#pragma once
+
+#include "gpu/frame_graph.h"
+#include "gpu/hash.h"
+
+namespace gn {
+
+/// What a raster pipeline must know about the pass it is used in.
+struct AttachmentFormats {
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    std::uint32_t samples = 1;
+    bool depth_read_only = false;
+};
+
+/// A binding of all stages together.
+struct PipelineBinding {
+    std::string name;
+    ShaderBinding shader;
+    VkShaderStageFlags stages = 0;
+};
+
+struct Pipeline {
+    std::string name;
+    VkPipeline vk = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
+    std::vector<PipelineBinding> bindings;
+    VkShaderStageFlags stages = 0;
+    std::uint32_t push_constant_bytes = 0;
+};
+
+/// One set of bindings from several stages. Throws Error naming the variable where stages disagree.
+std::vector<PipelineBinding> merge_bindings(std::span<const CompiledShader* const> stages);
+
+class PipelineCache {
+  public:
+    explicit PipelineCache(Device& device);
+    ~PipelineCache();
+    PipelineCache(const PipelineCache&) = delete;
+    PipelineCache& operator=(const PipelineCache&) = delete;
+
+    const Pipeline& get(const ComputeDesc& desc);
+    const Pipeline& get(const RasterDesc& desc, const AttachmentFormats& formats);
+    VkSampler sampler(const SamplerDesc& desc);
+    /// How many pipelines were made so far.
+    [[nodiscard]] std::size_t size() const { return pipelines_.size(); }
+
+  private:
+    Pipeline lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point);
+    void destroy(Pipeline& pipeline) const;
+
+    Device& device_;
+    std::map<Fingerprint, Pipeline> pipelines_;
+    std::map<Fingerprint, VkSampler> samplers_;
+};
+
+}  // namespace gn

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Host-visible bytes that live for one execution: the blocks given by Recorder::set_bytes.
+#pragma once
+
+#include "gpu/memory.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gn {
+
+struct UploadedBytes {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0, bytes = 0;
+};
+
+class UploadArena {
+  public:
+    explicit UploadArena(Device& device) : device_(device) {}
+
+    /// Forgets everything; the device must have finished.
+    void reset() {
+        chunk_ = 0;
+        used_ = 0;
+    }
+
+    UploadedBytes put(std::span<const std::byte> data) {
+        // Go on to a chunk that has room, making it where there is none.
+        while (chunk_ < chunks_.size() && used_ + data.size() > chunks_[chunk_].desc().bytes) {
+            ++chunk_;
+            used_ = 0;
+        }
+        if (chunk_ == chunks_.size()) {
+            chunks_.emplace_back(
+                device_, BufferDesc{.name = "uniforms",
+                                    .bytes = std::max<VkDeviceSize>(chunk_bytes, data.size()),
+                                    .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                    .host_visible = true});
+        }
+        const Buffer& chunk = chunks_[chunk_];
+        if (!data.empty()) {
+            std::memcpy(chunk.mapped() + used_, data.data(), data.size());
+        }
+        const UploadedBytes result{chunk.vk(), used_, std::max<VkDeviceSize>(data.size(), 4)};
+        used_ += (result.bytes + alignment - 1) / alignment * alignment;
+        return result;
+    }
+
+  private:
+    static constexpr VkDeviceSize chunk_bytes = 256 * 1024;
+    static constexpr VkDeviceSize alignment = 256;  ///< the most that Vulkan lets a device ask for
+
+    Device& device_;
+    std::vector<Buffer> chunks_;
+    std::size_t chunk_ = 0;
+    VkDeviceSize used_ = 0;
+};
+
+}  // namespace gn
