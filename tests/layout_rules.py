@@ -186,7 +186,7 @@ def largest_files(tree, count):
 
 
 def licence_lines(tree):
-    """The first line names the licence; in a script the second, after #!."""
+    """The first line names the licence; in a script the second, after #!; on a page one of the first three."""
     complaints = []
     named = {"Makefile", "CMakeLists.txt", ".editorconfig", ".clang-tidy"}
     for name in tree.files:
@@ -195,7 +195,7 @@ def licence_lines(tree):
         script = text.startswith("#!")
         if not (script or path.suffix in SOURCES | SCRIPTS or path.name in named):
             continue
-        if "SPDX-License-Identifier: MIT" not in "\n".join(text.splitlines()[: 2 if script else 1]):
+        if "SPDX-License-Identifier: MIT" not in "\n".join(text.splitlines()[: 3 if name.endswith(".html") else 2 if script else 1]):
             complaints.append(f"{name}: the first line lacks 'SPDX-License-Identifier: MIT'")
     return complaints
 
