@@ -240,20 +240,15 @@ Model load_toml(const std::filesystem::path& path) {
     table.check_keys(keys);
     const Folder folder(path);
     Model model;
-    for (const TomlTable& file : table.tables("file")) {
-        add_file(file, folder, model);
-    }
     for (const TomlTable& light : table.tables("light")) {
         add_light(light, model);
     }
-
-    // Cameras of the scene come before those of its files.
-    std::vector<PlacedCamera> of_files = std::move(model.cameras);
-    model.cameras.clear();
     for (const TomlTable& camera : table.tables("camera")) {
         add_camera(camera, model);
     }
-    model.cameras.insert(model.cameras.end(), of_files.begin(), of_files.end());
+    for (const TomlTable& file : table.tables("file")) {
+        add_file(file, folder, model);
+    }
     for (const TomlTable& moving : table.tables("path")) {
         add_path(moving, model);
     }
