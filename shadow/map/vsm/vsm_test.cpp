@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/map/vsm/vsm.glsl"
+
+#include "scenes/analytic.h"
+#include "tests/rig.h"
+
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+vec2 moments_of(float d1, float d2, float share1) {
+    const vec2 a = gn_vsm_moments(d1, 0, 0);
+    const vec2 b = gn_vsm_moments(d2, 0, 0);
+    return share1 * a + (1 - share1) * b;
+}
+
+TEST(Vsm, BoundIsExactOnParallelPlanes) {
+    // [Lau08] 3.2: a share p of the kernel sees the receiver's plane d2, the rest the occluder's plane d1: V = p.
+    for (float share = 0.05F; share < 1; share += 0.05F) {
+        const vec2 moments = moments_of(0.3F, 0.7F, 1 - share);
+        EXPECT_NEAR(gn_vsm_chebyshev(moments, 0.7F, 0), share, 1e-5);
+    }
+}
+
+TEST(Vsm, BoundIsNeverBelowPercentageCloserFiltering) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < 500; ++i) {
+        vec2 mean(0);
+        float lit = 0;
+        const float receiver = uniform(random);
+        for (int k = 0; k < 9; ++k) {
+            const float depth = uniform(random);
+            mean += gn_vsm_moments(depth, 0, 0) / 9.0F;
+            lit += receiver <= depth ? 1.0F / 9 : 0;
+        }
+        EXPECT_GE(gn_vsm_chebyshev(mean, receiver, 0), lit - 1e-4);
+    }
+}
+
+TEST(Vsm, BleedingOfThreePlanesFollowsTheEquation) {
+    // A over half the kernel, B under it, C below: what passes B reaches C although B hides it all.
+    using namespace scenes::stack_scene;
+    const double near = 10;  // metres from the light to A; any
+    const auto depth = [&](double y) { return static_cast<float>((near + height_a - y) / 20); };
+    const vec2 moments = moments_of(depth(height_a), depth(height_b), 0.5F);
+    EXPECT_NEAR(gn_vsm_chebyshev(moments, depth(height_c), 0), bleeding(dy), 1e-3);
+}
+
+TEST(Vsm, ReductionKeepsTheEndsAndTheOrder) {
+    EXPECT_EQ(gn_vsm_reduce_bleeding(1, 0.3F), 1);
+    EXPECT_EQ(gn_vsm_reduce_bleeding(0.3F, 0.3F), 0);
+    EXPECT_EQ(gn_vsm_reduce_bleeding(0.1F, 0.3F), 0);
+    EXPECT_LT(gn_vsm_reduce_bleeding(0.5F, 0.3F), gn_vsm_reduce_bleeding(0.6F, 0.3F));
+}
+
+TEST(VsmRendered, BleedingOnTheStackFollowsTheEquation) {
+    // With a kernel of n texels on the edge of A the map holds A and B half and half: V on C is eq. 3.4's.
+    const auto c =
+        test::compare("stack", "vsm,vsm.bleeding=0,vsm.min_deviation=0,vsm.blur=box,vsm.radius=8,resolution=1024");
+    double worst_on_c = 0;
+    for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+        const vec4 p_ws = c.frame.samples.position_ws[i];
+        const bool under_b = std::abs(p_ws.z) < 0.8 && p_ws.y < 1e-3F && p_ws.w > 0.5F && c.truth.visibility[i] == 0;
+        worst_on_c = under_b ? std::max(worst_on_c, static_cast<double>(c.visibility().values[i])) : worst_on_c;
+    }
+    // The largest value over the kernel's offsets is at least that of the middle.
+    using namespace scenes::stack_scene;
+    EXPECT_GE(worst_on_c, bleeding(dy) - 1e-3);
+}
+
+TEST(VsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
+    for (const char* options :
+         {"", ",vsm.samples=4", ",vsm.blur=gaussian,vsm.radius=5", ",vsm.mipmaps=false,vsm.blur=none"}) {
+        const auto c =
+            test::compare("tilted:angle=75", std::string("vsm,resolution=512") + options, {.width = 96, .height = 96});
+        EXPECT_LE(*c.errors.acne, 0.01) << options;
+        for (const float v : c.visibility().values) {
+            ASSERT_TRUE(v >= 0 && v <= 1) << v;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn
