@@ -75,7 +75,7 @@ TEST(Include, every_portable_file_compiles_alone_and_twice) {
 }
 
 TEST(Include, a_file_that_leans_on_another_is_noticed) {
-    const fs::path folder = fs::path(GNOMON_BINARY_DIR) / "include-test";
+    const fs::path folder = fs::path(testing::TempDir()) / "gnomon-include-test";
     fs::create_directories(folder);
     std::ofstream(folder / "leaning.glsl") << "float gn_leaning() { return gn_defined_elsewhere(); }\n";
     ShaderCompiler compiler(folder, {});
@@ -83,7 +83,7 @@ TEST(Include, a_file_that_leans_on_another_is_noticed) {
 }
 
 TEST(Include, an_unguarded_file_is_noticed) {
-    const fs::path folder = fs::path(GNOMON_BINARY_DIR) / "include-test";
+    const fs::path folder = fs::path(testing::TempDir()) / "gnomon-include-test";
     fs::create_directories(folder);
     std::ofstream(folder / "unguarded.glsl") << "float gn_unguarded() { return 1.0; }\n";
     ShaderCompiler compiler(folder, {});

@@ -119,7 +119,7 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
                             gn_pcf_lit(projected, bias, corner_ts + h.yy, occluder.w));
             vec4 weight = vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);
             sum += dot(lit, weight);
-            total += weight.x + weight.y + weight.z + weight.w;
+            total += dot(vec4(1.0), weight);
         }
     }
     return sum / total;
