@@ -2,6 +2,7 @@
 // The frame as a table of contents: one call a stage, in flow order.
 #include "shadow/frame.h"
 
+#include "shadow/history.h"
 #include "shadow/view/read_back.h"
 
 namespace gn {
@@ -56,7 +57,8 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
         if (!wanted(options, i)) {
             continue;
         }
-        const FrameInput input{graph.device(), graph, *scene.scene, handles, frame.samples, nullptr, i};
+        const FrameInput input{graph.device(), graph, *scene.scene,   handles, frame.samples,
+                               nullptr,        i,     options.history};
         try {
             frame.visibility.back() = add_shadow(input, recipe).image;
             graph.keep(frame.visibility.back());
@@ -77,10 +79,27 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
     return frame;
 }
 
+/// Advances a history by a frame that completed; empties it where the frame failed halfway.
+struct HistoryStep {
+    History* history = nullptr;
+    bool completed = false;
+    explicit HistoryStep(History* kept) : history(kept) {}
+    HistoryStep(const HistoryStep&) = delete;
+    HistoryStep& operator=(const HistoryStep&) = delete;
+    ~HistoryStep() {
+        if (history != nullptr && completed) {
+            history->advance();
+        } else if (history != nullptr) {
+            history->clear();
+        }
+    }
+};
+
 }  // namespace
 
 FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                          const FrameOptions& options) {
+    HistoryStep step(options.history);
     FrameGraph graph(device);
     FrameResult result;
     const BuiltFrame frame = build(graph, scene, camera, recipe, options, result.refused);
@@ -101,6 +120,7 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
     if (frame.picture.valid()) {
         result.picture = without_alpha(read_image(graph, frame.picture));
     }
+    step.completed = true;
     return result;
 }
 

@@ -23,6 +23,7 @@ struct FrameOptions {
     int repeat = 1;
     int only_light = -1;  ///< index, or -1 for all
     bool picture = true;
+    History* history = nullptr;  ///< of a camera's sequence; advanced by every frame that completes
 };
 
 /// Renders one view of the scene with one recipe. Throws Error; refusals per light are in the result.

@@ -72,7 +72,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     vec3 row_w = gn_row(view.cs_from_ws, 3);
 
     // Size of a texel at the receiver: the gradient of uv over the world, inverted.
-    vec4 p_cs = view.cs_from_ws * vec4(receiver.p_ws, 1.0f);
+    vec4 p_cs = gn_clip(view, receiver.p_ws);
     float inverse_w = 1.0f / p_cs.w;
     result.du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
     result.dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
@@ -89,7 +89,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     vec3 p_ws = receiver.p_ws + to_eye * towards_light + receiver.n_ws * along_normal;
 
     // Project.
-    p_cs = view.cs_from_ws * vec4(p_ws, 1.0f);
+    p_cs = gn_clip(view, p_ws);
     inverse_w = 1.0f / p_cs.w;
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);

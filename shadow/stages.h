@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,8 @@ struct CpuSamples {
     std::vector<vec4> normal_ws;    ///< xyz geometric, towards the camera; w = distance along the view axis
 };
 
+class History;
+
 /// What parts of all stages get to see of the frame.
 struct FrameInput {
     Device& device;
@@ -79,11 +82,31 @@ struct FrameInput {
     const ViewSamples& samples;
     const CpuSamples* cpu_samples = nullptr;  ///< when the caller has them (never required by shipping recipes)
     std::size_t light_index = 0;
+    History* history = nullptr;  ///< what earlier frames of the sequence kept; null for a single frame
     [[nodiscard]] const Light& light() const { return scene.lights[light_index]; }
 };
 
 class Part;
 class ParamBlock;
+
+/// A rectangle of a kept layer that must be drawn. Its view covers one whole tile of the layer's endless texel grid, so
+/// that a grid texel is always rasterized at the same place, wherever the map's window lies.
+struct KeptDraw {
+    GnLightView view;
+    ivec4 rect{0};  ///< x, y, width, height in texels of the kept texture
+    std::vector<std::uint32_t> casters;
+};
+/// A layer that is kept over frames and wraps around: texel t of the map is texel (t + shift) mod resolution of it.
+struct KeptLayer {
+    ivec2 shift{0};
+    std::vector<KeptDraw> revealed;  ///< what the window newly shows
+    std::vector<KeptDraw> whole;     ///< the same for a texture without contents
+};
+struct KeptViews {
+    History* history = nullptr;
+    std::string name;
+    std::vector<KeptLayer> layers;
+};
 
 /// placement: where the light looks from.
 struct LightViews {
@@ -95,7 +118,9 @@ struct LightViews {
     BufferHandle buffer;          ///< GnLightView[] where the placement makes its views on the GPU; else invalid
     BufferHandle data_buffer;     ///< GnPlacementData likewise
     std::vector<std::vector<std::uint32_t>>
-        casters;  ///< per view: indices into Scene::objects that may cast; empty: all
+        casters;                    ///< per view: indices into Scene::objects that may cast; empty: all
+    bool layered = false;           ///< one pass draws all views, each a whole layer of its own
+    std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything
 };
 
 /// Declares and sets the blocks `Views` (GnLightView[]) and `Placement` (GnPlacementData) of a pass.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/map/raster.h"
 
+#include "shadow/map/caster_draw.h"
 #include "shadow/view/draw.h"
+
+#include <algorithm>
 
 namespace gn {
 namespace {
@@ -19,9 +22,15 @@ layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
 layout(location = 1) out vec2 out_uv;
 #endif
 void main() {
-    gl_Position = views[push.view].cs_from_ws * vec4(in_position_ws, 1.0);
+#ifdef GN_LAYERED
+    int view = gl_InstanceIndex;
+    gl_Layer = views[view].layer;
+#else
+    int view = push.view;
+#endif
+    gl_Position = gn_clip(views[view], in_position_ws);
 #ifdef GN_FRAGMENT
-    out_depth = dot(views[push.view].depth_from_ws, vec4(in_position_ws, 1.0));
+    out_depth = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
 #endif
 #ifdef GN_MASKED
     out_uv = uvs[gl_VertexIndex];
@@ -57,7 +66,7 @@ struct Push {
 };
 
 struct Variant {
-    bool masked = false, write_depth = false;
+    bool masked = false, write_depth = false, layered = false;
 };
 
 /// The pipeline that draws casters: a fragment stage only where depth is not affine, alpha is tested or the map asks.
@@ -67,6 +76,7 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant
     defines += needs_fragment ? "#define GN_FRAGMENT\n" : "";
     defines += variant.masked ? "#define GN_MASKED\n" : "";
     defines += variant.write_depth ? "#define GN_WRITE_DEPTH\n" : "";
+    defines += variant.layered ? "#define GN_LAYERED\n" : "";
 
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + vertex_text};
@@ -92,90 +102,97 @@ void set_viewport(Recorder& r, const GnLightView& view) {
               static_cast<std::uint32_t>(view.rect_ts.z * n), static_cast<std::uint32_t>(view.rect_ts.w * n));
 }
 
-struct CasterDraw {
-    CasterPass pass;
-    Recipe recipe;
-    LightViews views;
-    SceneHandles handles;
-    const Scene* scene = nullptr;
-    std::size_t view = 0;
-
-    [[nodiscard]] std::span<const std::uint32_t> objects() const {
-        return views.casters.empty() ? std::span<const std::uint32_t>{}
-                                     : std::span<const std::uint32_t>(views.casters[view]);
-    }
-    [[nodiscard]] bool nothing_to_draw() const { return !views.casters.empty() && views.casters[view].empty(); }
-
-    void begin(Recorder& r, bool masked) const {
-        r.bind(caster_pipeline(pass, recipe, {masked, views.views[view].affine_depth == 0}));
-        set_views(r, views);
-        if (pass.bind_values) {
-            pass.bind_values(r);
-        }
-        r.vertex_buffer(handles.positions);
-        r.index_buffer(handles.indices);
-    }
-
-    void opaque(Recorder& r) const {
-        const std::vector<DrawRange> runs = opaque_runs(*scene, objects());
-        if (runs.empty()) {
-            return;
-        }
-        begin(r, false);
-        r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F});
-        for (const DrawRange& run : runs) {
-            r.draw_indexed(run.index_count, 1, run.first_index);
-        }
-    }
-
-    void masked(Recorder& r) const {
-        const std::vector<std::uint32_t> masked = masked_objects(*scene, objects());
-        if (masked.empty()) {
-            return;
-        }
-        begin(r, true);
-        r.set("Uvs", handles.uvs);
-        for (const std::uint32_t index : masked) {
-            const Object& object = scene->objects[index];
-            const Material& material = scene->materials[static_cast<std::size_t>(object.material)];
-            const BaseColor color = base_color(*scene, handles, material);
-            const AlphaTest test = alpha_test(material);
-            r.set("base_color_texture", color.texture, color.sampler);
-            r.push_value(Push{static_cast<int>(view), test.base_alpha, test.cutoff});
-            r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
-        }
-    }
-};
-
 }  // namespace
 
+void CasterDraw::begin(Recorder& r, bool masked) const {
+    r.bind(caster_pipeline(pass, recipe, {masked, views.views[view].affine_depth == 0, views.layered}));
+    set_views(r, views);
+    if (pass.bind_values) {
+        pass.bind_values(r);
+    }
+    r.vertex_buffer(handles.positions);
+    r.index_buffer(handles.indices);
+}
+
+void CasterDraw::opaque(Recorder& r, std::span<const std::uint32_t> objects) const {
+    const std::vector<DrawRange> runs = opaque_runs(*scene, objects);
+    if (runs.empty()) {
+        return;
+    }
+    begin(r, false);
+    r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F});
+    for (const DrawRange& run : runs) {
+        r.draw_indexed(run.index_count, instances(), run.first_index);
+    }
+}
+
+void CasterDraw::masked(Recorder& r, std::span<const std::uint32_t> objects) const {
+    const std::vector<std::uint32_t> masked = masked_objects(*scene, objects);
+    if (masked.empty()) {
+        return;
+    }
+    begin(r, true);
+    r.set("Uvs", handles.uvs);
+    for (const std::uint32_t index : masked) {
+        const Object& object = scene->objects[index];
+        const Material& material = scene->materials[static_cast<std::size_t>(object.material)];
+        const BaseColor color = base_color(*scene, handles, material);
+        const AlphaTest test = alpha_test(material);
+        r.set("base_color_texture", color.texture, color.sampler);
+        r.push_value(Push{static_cast<int>(view), test.base_alpha, test.cutoff});
+        r.draw_indexed(object.triangle_count * 3, instances(), object.first_triangle * 3);
+    }
+}
+
+void CasterDraw::record(Recorder& r) const {
+    std::vector<std::uint32_t> objects;
+    if (!views.casters.empty()) {
+        // One pass for all layers draws what any of them needs.
+        for (std::size_t i = views.layered ? 0 : view; i <= (views.layered ? views.casters.size() - 1 : view); ++i) {
+            objects.insert(objects.end(), views.casters[i].begin(), views.casters[i].end());
+        }
+        std::sort(objects.begin(), objects.end());
+        objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+        if (objects.empty()) {
+            return;
+        }
+    }
+    opaque(r, objects);
+    masked(r, objects);
+}
+
+void CasterDraw::declare(PassBuilder& builder) const {
+    builder.vertices(handles.positions);
+    builder.indices(handles.indices);
+    builder.storage_read(handles.uvs);
+    sample_textures(builder, handles);
+    declare_views(builder, views);
+}
+
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {
+    if (can_keep(input, views, pass)) {
+        add_kept_passes(input, recipe, views, pass);
+        return;
+    }
     std::vector<bool> cleared(views.layers, false);
-    for (std::size_t view = 0; view < views.views.size(); ++view) {
+    for (std::size_t view = 0; view < (views.layered ? 1 : views.views.size()); ++view) {
         const auto layer = static_cast<std::uint32_t>(views.views[view].layer);
         const Load load = cleared[layer] ? Load::keep : Load::clear;
         cleared[layer] = true;
+        const Range range = views.layered ? Range{0, 1, 0, views.layers} : one_layer(layer);
         const CasterDraw draw{pass, recipe, views, input.handles, &input.scene, view};
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {
                 if (pass.color.valid()) {
-                    builder.color(pass.color, load, pass.clear_color, one_layer(layer));
+                    builder.color(pass.color, load, pass.clear_color, range);
                 }
-                builder.depth(pass.depth, load, {.depth = 1.0F}, one_layer(layer));
-                builder.vertices(input.handles.positions);
-                builder.indices(input.handles.indices);
-                builder.storage_read(input.handles.uvs);
-                sample_textures(builder, input.handles);
-                declare_views(builder, views);
+                builder.depth(pass.depth, load, {.depth = 1.0F}, range);
+                draw.declare(builder);
             },
             [draw](Recorder& r) {
-                if (draw.nothing_to_draw()) {
-                    return;
-                }
                 set_viewport(r, draw.views.views[draw.view]);
-                draw.opaque(r);
-                draw.masked(r);
+                draw.record(r);
             });
     }
 }

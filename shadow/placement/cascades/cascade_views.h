@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Slices of the view and the light views around them, on the CPU.
+#pragma once
+
+#include "shadow/placement/cascades/cascades.h"
+#include "shadow/placement/receivers.h"
+
+namespace gn::cascades {
+
+/// Distances along the camera's axis, metres.
+struct Interval {
+    double near = 0, far = 0;
+};
+
+/// What the cascades share. Stable cascades take it from the camera's optics and the size of the scene alone, so that it
+/// does not change while the camera moves inside the scene; the others from the potential receivers.
+Interval range_of(const FrameInput& input, const GnCascadesParams& params);
+
+/// The slice of each cascade: from its split backwards by the band of the transition before it.
+std::vector<Interval> slices_of(const GnCascadesParams& params, Interval range);
+
+/// Two axes of the light's plane, for bounding boxes: x along what the camera looks at.
+struct LightFrame {
+    dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+};
+LightFrame facing(const Camera& camera, const GnLight& light);
+
+/// The bounding box in light space of a slice's potential receivers.
+GnLightView plain_view(const ConvexBody& body, const LightFrame& frame, int resolution, Guard guard);
+
+/// Sets the depth axis of an orthographic view, metres along the light.
+void set_depth_range(GnLightView& view, const GnLight& light, Interval depth);
+/// Of the points of a body along a direction.
+Interval extent_of(const ConvexBody& body, dvec3 axis);
+
+/// The smallest sphere around a slice whose centre lies on the camera's axis.
+struct Sphere {
+    double centre = 0;  ///< distance along the axis, metres
+    double radius = 0;
+};
+Sphere sphere_around(Interval slice, double yfov, double aspect);
+
+/// The texel grid of one stable cascade: an endless plane of texels fixed to the world, of which a map is a window.
+/// Axes and texel size depend on the light, the optics and the scene's size, never on where the camera is.
+struct Grid {
+    GnLightView view;  ///< its window begins at texel (0, 0)
+    int resolution = 0;
+    double step = 1;    ///< texels that windows move by
+    double margin = 0;  ///< texels between the sphere, widened by the kernels' reach, and the window's border
+};
+/// `spare` widens the window by a share of itself, for windows that follow the camera late.
+Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, int resolution, Guard guard,
+             double spare);
+/// The grid coordinates of a point, in texels.
+dvec2 texel_of(const Grid& grid, dvec3 p_ws);
+/// The first texel of the window centred on a point.
+ivec2 window_around(const Grid& grid, dvec3 centre_ws);
+/// The view of the window that begins at texel `first`.
+GnLightView view_of(const Grid& grid, ivec2 first);
+
+/// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
+std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view);
+
+/// What the choice function reads; see cascades.glsl.
+std::array<vec4, 16> pack(const GnCascadesParams& params, Interval range, const LightFrame& frame,
+                          std::span<const GnLightView> views, Guard guard);
+
+/// SDSM: splits and views made on the GPU from the view samples of this frame.
+LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params);
+
+/// Replaces windows by kept ones where they are recent enough, and says what must be drawn.
+struct Window {
+    Grid grid;
+    dvec3 centre_ws{0};
+};
+void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
+                  std::span<const Window> windows, LightViews& views);
+
+}  // namespace gn::cascades

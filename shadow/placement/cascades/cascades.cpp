@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Several maps for one sun: the view is split along its axis, each slice has a layer of its own.
+// Also here: cascade_views.h, cascade_views.cpp (slices and the views around them), keep.cpp (maps kept over frames),
+// sdsm.h, sdsm.cpp (splits and views from the samples).
+//
+// Based on: Zhang, Sun, Xu, Lun. Parallel-Split Shadow Maps for Large-scale Virtual Environments. VRCIA 2006. [ZSXL06]
+#include "shadow/placement/cascades/cascade_views.h"
+
+#include <bit>
+
+namespace gn {
+namespace {
+
+using namespace cascades;
+
+bool by_samples(const GnCascadesParams& params) {
+    return params.split >= GN_SPLIT_SDSM_MINMAX;
+}
+
+/// Passes cost nothing on a CPU, where a layered one draws every caster into every layer; GPUs prefer one pass.
+bool layered(const Device& device, const GnCascadesParams& params) {
+    const bool wanted = params.passes == GN_PASSES_LAYERED || (params.passes == GN_PASSES_AUTO && !device.info().cpu);
+    return wanted && device.has(Feature::layer_from_vertex_shader);
+}
+
+/// Boxes or rectangles of least area around the receivers of each slice.
+void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
+                     std::span<const Interval> slices, LightViews& views) {
+    const GnLight& light = input.light().shape;
+    const LightFrame frame = facing(input.samples.camera, light);
+    for (const Interval& slice : slices) {
+        ConvexBody body = potential_receivers(input, slice.near, slice.far);
+        if (body.empty()) {
+            // Nothing can receive: any view will do.
+            body = body_of(Box{input.samples.camera.position_ws - 1.0F, input.samples.camera.position_ws + 1.0F});
+        }
+        views.views.push_back(params.fit == GN_FIT_PLAIN
+                                  ? plain_view(body, frame, recipe.resolution, guard_of(recipe))
+                                  : fit_orthographic(body, light, recipe.resolution, guard_of(recipe)));
+    }
+
+    // A receiver may be served by a cascade of another slice: then all share one range of depths.
+    const ConvexBody all = potential_receivers(input);
+    if (params.select == GN_SELECT_PROJECTION && !all.empty()) {
+        Interval depth = extent_of(all, frame.z);
+        const double slack = 1e-4 * std::max(depth.far - depth.near, 1e-3);
+        depth = {depth.near - slack - static_cast<double>(guard_of(recipe).metres), depth.far + slack};
+        for (GnLightView& view : views.views) {
+            set_depth_range(view, light, depth);
+        }
+    }
+}
+
+/// Windows of grids fixed to the world, around spheres that turn with nothing.
+std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
+                                     std::span<const Interval> slices, LightViews& views) {
+    const Camera& camera = input.samples.camera;
+    const double aspect = static_cast<double>(input.samples.width) / static_cast<double>(input.samples.height);
+    const double spare = params.rate > 1 ? 0.125 : 0.0;
+    std::vector<Window> windows;
+    for (const Interval& slice : slices) {
+        const Sphere sphere = sphere_around(slice, static_cast<double>(camera.yfov), aspect);
+        const Grid grid =
+            grid_of(sphere, input.light().shape, input.scene.bounds_ws, recipe.resolution, guard_of(recipe), spare);
+        const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
+        windows.push_back({grid, centre});
+        views.views.push_back(view_of(grid, window_around(grid, centre)));
+    }
+    return windows;
+}
+
+LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
+    const auto params = recipe.of<GnCascadesParams>("cascades");
+    if (by_samples(params)) {
+        LightViews views = place_by_samples(input, recipe, params);
+        views.layered = layered(input.device, params);
+        return views;
+    }
+    LightViews views;
+    views.resolution = static_cast<std::uint32_t>(recipe.resolution);
+    views.layers = static_cast<std::uint32_t>(params.count);
+    views.layered = layered(input.device, params);
+
+    // Split the view, and look at each slice.
+    const Interval range = range_of(input, params);
+    const std::vector<Interval> slices = slices_of(params, range);
+    std::vector<Window> windows;
+    if (params.fit == GN_FIT_STABLE) {
+        windows = add_stable_views(input, recipe, params, slices, views);
+    } else {
+        add_tight_views(input, recipe, params, slices, views);
+    }
+    for (std::size_t i = 0; i < views.views.size(); ++i) {
+        views.views[i].layer = static_cast<int>(i);
+    }
+    if (!windows.empty() && input.history != nullptr && (params.scroll != 0 || params.rate > 1)) {
+        keep_windows(input, recipe, params, windows, views);
+    }
+
+    // Cull the casters of each view; tell the choice function.
+    for (const GnLightView& view : views.views) {
+        views.casters.push_back(casters_of(input.scene, view));
+    }
+    views.data = pack(params, range, facing(input.samples.camera, input.light().shape), views.views, guard_of(recipe));
+    return views;
+}
+
+std::string refuses_cascades(const Scene&, const Light&, const Recipe& recipe) {
+    const auto params = recipe.of<GnCascadesParams>("cascades");
+    const bool kept = params.scroll != 0 || params.rate > 1;
+    if (kept && (by_samples(params) || params.fit != GN_FIT_STABLE)) {
+        return "cascades.scroll and cascades.rate keep maps over frames, which only stable windows allow; use "
+               "cascades.fit=stable with a split other than sdsm-minmax and sdsm-histogram";
+    }
+    if (kept && !std::has_single_bit(static_cast<unsigned>(recipe.resolution))) {
+        return fmt::format(
+            "cascades.scroll and cascades.rate keep whole texels exactly only at a resolution that is a "
+            "power of two, not {}; use {}",
+            recipe.resolution, std::bit_ceil(static_cast<unsigned>(recipe.resolution)));
+    }
+    return {};
+}
+
+std::vector<ParamRow> split_rows() {
+    return {
+        GN_PARAM(GnCascadesParams, count, integer, 1, GN_CASCADES_MOST, "",
+                 "More slices, each with a map of its own: finer texels, and memory and time in proportion."),
+        GN_CHOICE(GnCascadesParams, split,
+                  "Where the view is split: from even lengths to even perspective error, or from the samples seen.",
+                  "uniform", "log", "practical", "adapted-near", "sdsm-minmax", "sdsm-histogram"),
+        GN_PARAM(GnCascadesParams, alpha, real, 0, 1, "",
+                 "Moves the practical split from uniform (0) to logarithmic (1): finer texels near the camera."),
+        GN_PARAM(
+            GnCascadesParams, adapted_near, real, 0, 1e6, "m",
+            "Where the logarithm of adapted-near starts: farther ones leave the first slice coarser and the others "
+            "finer; 0 gives every slice a ratio of four."),
+        GN_PARAM(
+            GnCascadesParams, distance, real, 0, 1e9, "m",
+            "End of the last slice, beyond which nothing is shadowed: nearer ones make all texels finer; 0 reaches "
+            "as far as the scene."),
+    };
+}
+
+ParamTable rows() {
+    std::vector<ParamRow> all = split_rows();
+    const std::vector<ParamRow> more{
+        GN_CHOICE(GnCascadesParams, fit,
+                  "What each map covers: a box, the rectangle of least area, or a window of a fixed grid that does not "
+                  "shimmer; the sdsm splits always take the samples' box.",
+                  "plain", "fitted", "stable"),
+        GN_CHOICE(GnCascadesParams, transition,
+                  "How one slice gives way to the next: a line, a mixture at twice the cost there, or noise.", "none",
+                  "blend", "dither"),
+        GN_PARAM(GnCascadesParams, width, real, 0, 0.5, "of a slice",
+                 "A wider transition: less of a visible line, more samples that read two maps."),
+        GN_CHOICE(GnCascadesParams, select,
+                  "By distance, or the finest map that holds the receiver: finer at equal cost, with borders that are "
+                  "not straight.",
+                  "distance", "projection"),
+        GN_CHOICE(GnCascadesParams, passes, "One pass for all maps or one each; auto prefers one on a GPU.", "auto",
+                  "layered", "separate"),
+        GN_PARAM(GnCascadesParams, rate, integer, 1, 64, "frames",
+                 "Redraws the last map only so often, those before it more often: cheaper, and moving casters lag far "
+                 "away; takes effect over a sequence of frames."),
+        GN_PARAM(GnCascadesParams, scroll, boolean, 0, 1, "",
+                 "Keeps the maps of still casters and draws only what the moving window reveals; takes effect over a "
+                 "sequence of frames."),
+    };
+    all.insert(all.end(), more.begin(), more.end());
+    return param_table<GnCascadesParams>(std::move(all));
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& placement_cascades() {
+    static const Part part = [] {
+        Part p;
+        p.id = "cascades";
+        p.stage = Stage::placement;
+        p.title = "Cascades: one map per slice of the view";
+        p.citation = "ZSXL06";
+        p.lights = {.directional = true};
+        p.params = rows();
+        p.params_type = "GnCascadesParams";
+        p.glsl = "shadow/placement/cascades/cascades.glsl";
+        p.place = place_cascades;
+        p.refuses = refuses_cascades;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

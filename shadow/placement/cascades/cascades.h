@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Parameters of cascaded shadow maps.
+#ifndef GN_SHADOW_PLACEMENT_CASCADES_H
+#define GN_SHADOW_PLACEMENT_CASCADES_H
+
+#include "base/shared.h"
+
+#define GN_CASCADES_MOST 8
+
+#define GN_SPLIT_UNIFORM 0
+#define GN_SPLIT_LOG 1
+#define GN_SPLIT_PRACTICAL 2
+#define GN_SPLIT_ADAPTED_NEAR 3
+#define GN_SPLIT_SDSM_MINMAX 4
+#define GN_SPLIT_SDSM_HISTOGRAM 5
+
+#define GN_FIT_PLAIN 0
+#define GN_FIT_FITTED 1
+#define GN_FIT_STABLE 2
+
+#define GN_TRANSITION_NONE 0
+#define GN_TRANSITION_BLEND 1
+#define GN_TRANSITION_DITHER 2
+
+#define GN_SELECT_DISTANCE 0
+#define GN_SELECT_PROJECTION 1
+
+#define GN_PASSES_AUTO 0
+#define GN_PASSES_LAYERED 1
+#define GN_PASSES_SEPARATE 2
+
+struct GnCascadesParams {
+    int count GN_DEFAULT(4);
+    int split GN_DEFAULT(GN_SPLIT_PRACTICAL);
+    float alpha GN_DEFAULT(0.8f);         ///< of practical: 0 uniform, 1 logarithmic
+    float adapted_near GN_DEFAULT(0.0f);  ///< metres; 0: each cascade spans a ratio of four
+    float distance GN_DEFAULT(0.0f);      ///< metres to the end of the last cascade; 0: as far as the scene reaches
+    int fit GN_DEFAULT(GN_FIT_STABLE);
+    int transition GN_DEFAULT(GN_TRANSITION_BLEND);
+    float width GN_DEFAULT(0.1f);  ///< of the transition, as a share of the nearer cascade
+    int select GN_DEFAULT(GN_SELECT_DISTANCE);
+    int passes GN_DEFAULT(GN_PASSES_AUTO);
+    int rate GN_DEFAULT(1);    ///< frames between redraws of the last cascade
+    int scroll GN_DEFAULT(0);  ///< keep maps over frames and draw only what the window newly shows
+};
+
+#endif

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/placement/cascades/cascades.glsl"
+
+#include "shadow/history.h"
+#include "shadow/placement/cascades/cascade_views.h"
+#include "shadow/placement/cascades/sdsm.h"
+#include "tests/rig.h"
+
+#include <cstring>
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace cascades;
+using glsl::GnChoice;
+using glsl::GnProjected;
+using glsl::GnReceiver;
+
+// ---- Splits: closed forms.
+
+TEST(CascadeSplits, LogarithmicEndsAreThePublishedOnes) {
+    GnCascadesParams params{.count = 3, .split = GN_SPLIT_LOG};
+    EXPECT_NEAR(glsl::gn_cascades_split(params, 1, 1000, 1), 10, 1e-4);
+    EXPECT_NEAR(glsl::gn_cascades_split(params, 1, 1000, 2), 100, 1e-3);
+    EXPECT_NEAR(glsl::gn_cascades_split(params, 0.1F, 1000, 1), 2.154, 5e-4);
+    EXPECT_NEAR(glsl::gn_cascades_split(params, 0.1F, 1000, 2), 46.42, 5e-3);
+}
+
+TEST(CascadeSplits, UniformEndsAreEvenlySpaced) {
+    GnCascadesParams params{.count = 4, .split = GN_SPLIT_UNIFORM};
+    for (int i = 0; i <= 4; ++i) {
+        EXPECT_NEAR(glsl::gn_cascades_split(params, 2, 10, i), 2 + 2 * i, 1e-5);
+    }
+}
+
+TEST(CascadeSplits, PracticalRunsFromUniformToLogarithmic) {
+    for (int i = 0; i <= 5; ++i) {
+        GnCascadesParams practical{.count = 5, .split = GN_SPLIT_PRACTICAL};
+        practical.alpha = 0;
+        EXPECT_EQ(glsl::gn_cascades_split(practical, 0.5F, 300, i),
+                  glsl::gn_cascades_split({.count = 5, .split = GN_SPLIT_UNIFORM}, 0.5F, 300, i));
+        practical.alpha = 1;
+        EXPECT_EQ(glsl::gn_cascades_split(practical, 0.5F, 300, i),
+                  glsl::gn_cascades_split({.count = 5, .split = GN_SPLIT_LOG}, 0.5F, 300, i));
+    }
+    // Halfway: (10 + 334) / 2.
+    GnCascadesParams half{.count = 3, .split = GN_SPLIT_PRACTICAL, .alpha = 0.5F};
+    EXPECT_NEAR(glsl::gn_cascades_split(half, 1, 1000, 1), 172, 1e-3);
+}
+
+TEST(CascadeSplits, AdaptedNearGivesEverySliceButTheFirstTheSameRatio) {
+    GnCascadesParams params{.count = 4, .split = GN_SPLIT_ADAPTED_NEAR};
+    const auto end = [&](int i) { return glsl::gn_cascades_split(params, 0.001F, 512, i); };
+    EXPECT_EQ(end(0), 0.001F);
+    EXPECT_NEAR(end(1), 8, 1e-4);
+    EXPECT_NEAR(end(2), 32, 1e-3);
+    EXPECT_NEAR(end(3), 128, 1e-2);
+    // A near plane given by hand: from 1 to 1000 the ratio is 1000^(1/4).
+    params.adapted_near = 1;
+    EXPECT_NEAR(glsl::gn_cascades_split(params, 0.001F, 1000, 1), 5.6234, 1e-3);
+    // It never lies before the true one: then the scheme is the logarithmic one.
+    params.adapted_near = 0.01F;
+    EXPECT_EQ(glsl::gn_cascades_split(params, 1, 1000, 2),
+              glsl::gn_cascades_split({.count = 4, .split = GN_SPLIT_LOG}, 1, 1000, 2));
+}
+
+TEST(CascadeSplits, EndsRiseForEveryScheme) {
+    for (int split = 0; split <= GN_SPLIT_SDSM_HISTOGRAM; ++split) {
+        for (int count = 1; count <= GN_CASCADES_MOST; ++count) {
+            const GnCascadesParams params{.count = count, .split = split};
+            float before = 0;
+            for (int i = 0; i <= count; ++i) {
+                const float end = glsl::gn_cascades_split(params, 0.1F, 10000, i);
+                EXPECT_GT(end, before) << "split " << split << " count " << count << " end " << i;
+                before = end;
+            }
+            EXPECT_EQ(before, 10000);
+        }
+    }
+}
+
+// ---- The choice.
+
+GnReceiver receiver_at(float view_depth, vec2 p_ss = vec2(7.5F, 3.5F)) {
+    GnReceiver receiver{};
+    receiver.view_depth = view_depth;
+    receiver.p_ss = p_ss;
+    return receiver;
+}
+
+/// Three slices, ending at 10, 20 and 40 m.
+glsl::GnPlacementData choice_data(int transition, float width) {
+    glsl::GnPlacementData data{};
+    data.values[0] = vec4(3, transition, GN_SELECT_DISTANCE, width);
+    data.values[1] = vec4(10, 20, 40, 0);
+    return data;
+}
+
+TEST(CascadeChoice, FollowsTheDistance) {
+    const auto data = choice_data(GN_TRANSITION_NONE, 0.2F);
+    EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(0.1F), data).first, 0);
+    EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(10.01F), data).first, 1);
+    EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(39.9F), data).first, 2);
+    EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(1000), data).first, 2);
+    EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(9.99F), data).second, -1);
+}
+
+TEST(CascadeChoice, BlendRunsFromZeroToOneInTheBandAndNowhereElse) {
+    const auto data = choice_data(GN_TRANSITION_BLEND, 0.2F);
+    float before = 0;
+    for (float z = 0.05F; z < 60; z += 0.05F) {
+        const GnChoice choice = glsl::gn_cascades_choose(receiver_at(z), data);
+        const bool in_band = (z > 8 && z <= 10) || (z > 18 && z <= 20);
+        EXPECT_GE(choice.weight, 0) << z;
+        EXPECT_LE(choice.weight, 1) << z;
+        if (in_band && choice.second >= 0) {
+            EXPECT_EQ(choice.second, choice.first + 1) << z;
+            EXPECT_GE(choice.weight, before - 1e-6F) << z;
+            before = choice.weight;
+        } else {
+            EXPECT_EQ(choice.second, -1) << z;
+            before = 0;
+        }
+    }
+    EXPECT_NEAR(glsl::gn_cascades_choose(receiver_at(9), data).weight, 0.5, 1e-5);
+    EXPECT_NEAR(glsl::gn_cascades_choose(receiver_at(10), data).weight, 1, 1e-5);
+}
+
+TEST(CascadeChoice, DitherTakesTheNextSliceAsOftenAsBlendWeighsIt) {
+    const auto data = choice_data(GN_TRANSITION_DITHER, 0.2F);
+    for (const float z : {8.5F, 9.0F, 9.5F}) {
+        double next = 0;
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                const GnChoice choice = glsl::gn_cascades_choose(
+                    receiver_at(z, vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F), data);
+                EXPECT_EQ(choice.second, -1);
+                next += choice.first;
+            }
+        }
+        EXPECT_NEAR(next / 4096, (z - 8) / 2, 0.02) << z;
+    }
+    for (const float z : {5.0F, 7.99F, 12.0F, 17.9F}) {
+        EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(z), data).first, z < 10 ? 0 : 1);
+    }
+}
+
+// ---- Stable windows.
+
+GnLight sun(vec3 direction_ws) {
+    GnLight light;
+    light.direction_ws = vec4(glm::normalize(direction_ws), 0);
+    return light;
+}
+
+TEST(CascadeSphere, HoldsTheSliceAndTouchesItsFarCorners) {
+    for (const Interval slice : {Interval{0.1, 3}, Interval{3, 20}, Interval{100, 101}}) {
+        const Camera camera{.yfov = 0.9F};
+        const Sphere sphere = sphere_around(slice, 0.9F, 1.5);
+        const dvec3 centre(0, 0, -sphere.centre);
+        double farthest_corner = 0;
+        for (const dvec3& p : body_of(camera, 1.5F, slice.near, slice.far).vertices()) {
+            farthest_corner = std::max(farthest_corner, glm::length(p - centre));
+        }
+        EXPECT_NEAR(farthest_corner, sphere.radius, 1e-5 * sphere.radius);
+    }
+}
+
+struct Placed {
+    GnProjected projected;
+    dvec2 texel;
+};
+
+/// The receiver's place in the window around `centre`, by the function that the shaders use.
+Placed place(const Grid& grid, dvec3 centre_ws, vec3 p_ws) {
+    const GnLightView view = view_of(grid, window_around(grid, centre_ws));
+    GnReceiver receiver{};
+    receiver.p_ws = p_ws;
+    receiver.n_ws = glm::normalize(vec3(0.2F, 1, 0.1F));
+    const GnProjected projected = glsl::gn_project(receiver, view, GnBias{});
+    return {projected, dvec2(projected.uv_ts) * static_cast<double>(grid.resolution)};
+}
+
+/// Near 0.1 m to far 10 km, at the origin and 100 km away: a point's place within its texel, and its depth, must not
+/// change by a single bit while the camera moves by fractions of a texel.
+TEST(CascadeStable, PlaceInTheTexelIsBitEqualWhereverTheCameraMoves) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const dvec3 origin : {dvec3(0), dvec3(100e3, 30, -70e3)}) {
+        const Box scene_ws{vec3(origin) - 5000.0F, vec3(origin) + 5000.0F};
+        for (const Interval slice : {Interval{0.1, 5}, Interval{5, 80}, Interval{80, 1000}, Interval{1000, 10000}}) {
+            const Sphere sphere = sphere_around(slice, 0.9, 1.78);
+            const Grid grid = grid_of(sphere, sun(vec3(0.4F, -1, 0.3F)), scene_ws, 1024, {.texels = 3}, 0);
+            const double texel = 2 * sphere.radius / 1024;
+            for (int i = 0; i < 200; ++i) {
+                const dvec3 offset = 0.5 * sphere.radius * dvec3(unit(random), unit(random), unit(random));
+                const vec3 p_ws(origin + offset);
+                const Placed still = place(grid, origin, p_ws);
+                ASSERT_TRUE(still.projected.inside);
+                for (const double step : {0.13, 0.5, 0.77, 1.0, 3.3}) {
+                    const Placed moved = place(grid, origin + step * texel * dvec3(1, 0.3, -0.6), p_ws);
+                    ASSERT_EQ(still.projected.depth, moved.projected.depth);
+                    ASSERT_EQ(still.projected.texel_ws, moved.projected.texel_ws);
+                    ASSERT_EQ(still.projected.plane_slope, moved.projected.plane_slope);
+                    const dvec2 change = moved.texel - still.texel;
+                    ASSERT_EQ(change, glm::round(change)) << "slice to " << slice.far << " step " << step;
+                }
+            }
+        }
+    }
+}
+
+TEST(CascadeStable, WindowHoldsTheSphereAndItsKernel) {
+    std::mt19937 random(6);
+    std::normal_distribution<double> normal;
+    for (const dvec3 origin : {dvec3(0), dvec3(100e3, 30, -70e3)}) {
+        const Box scene_ws{vec3(origin) - 5000.0F, vec3(origin) + 5000.0F};
+        const Sphere sphere = sphere_around({0.1, 20}, 0.9, 1.78);
+        const Guard guard{.texels = 4, .metres = 0.1F};
+        const Grid grid = grid_of(sphere, sun(vec3(0.4F, -1, 0.3F)), scene_ws, 512, guard, 0);
+        for (int i = 0; i < 2000; ++i) {
+            const dvec3 centre = origin + 10.0 * dvec3(normal(random), normal(random), normal(random));
+            const dvec3 direction = glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+            const vec3 p_ws(centre + sphere.radius * direction);
+            const GnLightView view = view_of(grid, window_around(grid, centre));
+            const vec4 p_cs = gn_clip(view, p_ws);
+            EXPECT_LE(std::abs(p_cs.x), 1 - 2 * 4.0 / 512) << i;
+            EXPECT_LE(std::abs(p_cs.y), 1 - 2 * 4.0 / 512) << i;
+        }
+    }
+}
+
+TEST(CascadeCulling, KeepsWhatCanCastAndDropsWhatCannot) {
+    Scene scene;
+    const auto box = [&](vec3 low, vec3 high) { scene.objects.push_back({"box", 0, 0, 0, Box{low, high}}); };
+    box(vec3(-1, 0, -1), vec3(1, 1, 1));          // in the view
+    box(vec3(-1, 90, -1), vec3(1, 91, 1));        // far above: before the near plane, still casts
+    box(vec3(20, 0, 20), vec3(21, 1, 21));        // beside
+    box(vec3(-1, -30, -1), vec3(1, -29, 1));      // behind the far plane
+    box(vec3(-50, -0.1F, -50), vec3(50, 0, 50));  // larger than the view
+    const ConvexBody body = body_of(Box{vec3(-5, 0, -5), vec3(5, 3, 5)});
+    const GnLightView view = fit_orthographic(body, sun(vec3(0, -1, 0)), 256, {});
+    EXPECT_EQ(casters_of(scene, view), (std::vector<std::uint32_t>{0, 1, 4}));
+}
+
+TEST(CascadeData, PackedPositionsAreTheViewsOwn) {
+    const GnLight light = sun(vec3(0.4F, -1, 0.3F));
+    const Camera camera{.position_ws = vec3(1, 2, 3)};
+    std::vector<GnLightView> views;
+    for (const double far : {5.0, 20.0}) {
+        views.push_back(fit_orthographic(body_of(camera, 1.5F, 0.1, far), light, 512, {}));
+        views.push_back(plain_view(body_of(camera, 1.5F, 0.1, far), facing(camera, light), 512, {}));
+    }
+    const GnCascadesParams params{.count = 4};
+    const auto packed = pack(params, {0.1, 20}, facing(camera, light), views, {.texels = 2});
+    glsl::GnPlacementData data{};
+    std::copy(packed.begin(), packed.end(), data.values);
+    for (int i = 0; i < 4; ++i) {
+        for (const vec3 p_ws : {vec3(1, 0, 0), vec3(-2, 1, -9), vec3(4, 3, 2)}) {
+            const vec4 p_cs = views[static_cast<std::size_t>(i)].cs_from_ws * vec4(p_ws, 1);
+            EXPECT_NEAR(glsl::gn_cascades_border(data, i, p_ws), std::max(std::abs(p_cs.x), std::abs(p_cs.y)), 1e-4);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn
