@@ -53,7 +53,7 @@ TEST(CommandLine, UnknownNamesListTheKnown) {
     expect_misuse({"render", "slab", "-r", "pfc"}, {"'pfc'", "did you mean 'pcf'", "volumes"});
     expect_misuse({"compare", "slab", "-r", "pcf,pcf.tabs=3"}, {"tabs", "taps"});
     expect_misuse({"compare", "slab", "-r", "pcf,map=dept"}, {"'dept'", "depth"});
-    expect_misuse({"compare", "-r", "hard", "slab"}, {"slab", "scenes stand before"});
+    expect_misuse({"compare", "-r", "hard", "slab", "contact"}, {"slab", "scenes stand before"});
     expect_misuse({"render", "slab", "--view", "attic"}, {"attic"});
 }
 

@@ -147,16 +147,16 @@ TEST(Compare, UnknownLightsListTheKnown) {
 }
 
 TEST(Compare, RefusedIsNoFailureUnlessStrict) {
-    // A single flat map cannot surround a point light.
+    // One map over a light's frustum cannot surround a point light.
     const Words asked =
-        small({"compare", "courtyard", "-r", "hard,placement=fit", "--light", "lantern", "--json", "-"});
+        small({"compare", "courtyard", "-r", "hard,placement=single", "--light", "lantern", "--json", "-"});
     const CommandResult lenient = run_gnomon(asked);
     EXPECT_EQ(lenient.status, 0) << lenient.err;
     const json document = json::parse(lenient.out);
     expect_valid(document);
     const json& run = document.at("runs").at(0);
     EXPECT_EQ(run.at("status"), "refused");
-    expect_has(run.at("reason").get<std::string>(), {"fit", "point"});
+    expect_has(run.at("reason").get<std::string>(), {"single", "point"});
     EXPECT_EQ(run.at("lights").at(0).at("status"), "refused");
     EXPECT_TRUE(run.at("time_ms").at("shadow").at("median").is_null());
     Words strict = asked;

@@ -127,13 +127,11 @@ TEST(Recipes, NameTheirParts) {
 TEST(Recipes, AutomaticPlacementSuitsTheLight) {
     const Recipe recipe = load_recipe("hard");
     EXPECT_EQ(recipe.placement, nullptr);
-    const std::map<uint, std::string> expected{{GN_LIGHT_DIRECTIONAL, "fit"},
-                                               {GN_LIGHT_SPOT, "single"},
-                                               {GN_LIGHT_POINT, "cube"},
-                                               {GN_LIGHT_RECTANGLE, "single"}};
+    const std::map<uint, std::string> expected{
+        {GN_LIGHT_DIRECTIONAL, "fit"}, {GN_LIGHT_SPOT, "fit"}, {GN_LIGHT_POINT, "cube"}, {GN_LIGHT_RECTANGLE, "fit"}};
     for (const auto& [kind, id] : expected) {
         EXPECT_EQ(recipe.placement_for(light_of(kind).shape).id, id);
-        EXPECT_EQ(load_recipe("hard,placement=fit").placement_for(light_of(kind).shape).id, "fit");
+        EXPECT_EQ(load_recipe("hard,placement=single").placement_for(light_of(kind).shape).id, "single");
     }
 }
 
@@ -233,8 +231,8 @@ TEST(Recipes, FilesAreCheckedLineByLine) {
 
 TEST(CheckRecipe, LightsThatAPartDoesNotServeAreRefused) {
     const AnsweringDevice device;
-    const Recipe cube = load_recipe("hard,placement=cube"), fit = load_recipe("hard,placement=fit");
-    expect_has(refusal_of(fit, GN_LIGHT_POINT, device), {"'fit'", "point", "lamp", "directional"});
+    const Recipe cube = load_recipe("hard,placement=cube"), single = load_recipe("hard,placement=single");
+    expect_has(refusal_of(single, GN_LIGHT_POINT, device), {"'single'", "point", "lamp", "directional"});
     EXPECT_EQ(refusal_of(cube, GN_LIGHT_POINT, device), "");
     for (const uint kind : {GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT, GN_LIGHT_RECTANGLE}) {
         EXPECT_EQ(refusal_of(load_recipe("none"), kind, device), "");
