@@ -10,7 +10,7 @@ struct GnBias {
     float constant_world GN_DEFAULT(0.0f);  ///< metres towards the light
     float slope GN_DEFAULT(0.0f);           ///< texels towards the light per unit of tan(angle of incidence)
     float slope_max GN_DEFAULT(16.0f);      ///< limit of that tangent
-    float normal GN_DEFAULT(0.5f);          ///< texels along the normal, scaled by the sine of the angle of incidence
+    float normal GN_DEFAULT(0.25f);         ///< texels along the normal, scaled by the sine of the angle of incidence
     float normal_world GN_DEFAULT(0.0f);    ///< metres along the normal, likewise
     int receiver_plane GN_DEFAULT(1);       ///< 1: taps compare with the receiver's plane, not with one depth
 };
