@@ -14,23 +14,28 @@
 #define GN_LIGHT_RECTANGLE 3
 
 struct GnLight {
-    vec4 position_ws GN_DEFAULT(vec4(0));            ///< xyz; the centre of the emitting shape (unused if directional)
-    vec4 direction_ws GN_DEFAULT(vec4(0, -1, 0, 0)); ///< xyz unit: the way light travels along the axis
-    vec4 right_ws GN_DEFAULT(vec4(1, 0, 0, 0));      ///< xyz unit: rectangle's first axis
-    vec4 up_ws GN_DEFAULT(vec4(0, 0, 1, 0));         ///< xyz unit: rectangle's second axis
-    vec4 color GN_DEFAULT(vec4(1));                  ///< rgb linear, multiplied by intensity
-    vec2 half_size GN_DEFAULT(vec2(0));              ///< rectangle: half extents along right, up, metres
-    uint kind GN_DEFAULT(0u);                        ///< GN_LIGHT_*
-    float intensity GN_DEFAULT(1.0f);                ///< lux, cd or cd/m^2 by kind
-    float radius GN_DEFAULT(0.0f);                   ///< spot: of its disc, point: of its sphere, metres
-    float angular_radius GN_DEFAULT(0.0f);           ///< directional: of the cone it subtends, radians
-    float cos_inner GN_DEFAULT(1.0f);                ///< spot: full intensity inside
-    float cos_outer GN_DEFAULT(0.0f);                ///< spot: none outside
-    float range GN_DEFAULT(0.0f);                    ///< metres; 0 means unlimited
+    vec4 position_ws GN_DEFAULT(vec4(0));             ///< xyz; the centre of the emitting shape (unused if directional)
+    vec4 direction_ws GN_DEFAULT(vec4(0, -1, 0, 0));  ///< xyz unit: the way light travels along the axis
+    vec4 right_ws GN_DEFAULT(vec4(1, 0, 0, 0));       ///< xyz unit: rectangle's first axis
+    vec4 up_ws GN_DEFAULT(vec4(0, 0, 1, 0));          ///< xyz unit: rectangle's second axis
+    vec4 color GN_DEFAULT(vec4(1));                   ///< rgb linear, multiplied by intensity
+    vec2 half_size GN_DEFAULT(vec2(0));               ///< rectangle: half extents along right, up, metres
+    uint kind GN_DEFAULT(0u);                         ///< GN_LIGHT_*
+    float intensity GN_DEFAULT(1.0f);                 ///< lux, cd or cd/m^2 by kind
+    float radius GN_DEFAULT(0.0f);                    ///< spot: of its disc, point: of its sphere, metres
+    float angular_radius GN_DEFAULT(0.0f);            ///< directional: of the cone it subtends, radians
+    float cos_inner GN_DEFAULT(1.0f);                 ///< spot: full intensity inside
+    float cos_outer GN_DEFAULT(0.0f);                 ///< spot: none outside
+    float range GN_DEFAULT(0.0f);                     ///< metres; 0 means unlimited
     float unused0 GN_DEFAULT(0.0f);
     float unused1 GN_DEFAULT(0.0f);
     float unused2 GN_DEFAULT(0.0f);
 };
+
+#ifdef __cplusplus
+using glm::dot;
+using glm::normalize;
+#endif
 
 /// From p towards the light's centre; unit.
 GN_FN vec3 gn_to_light(GnLight light, vec3 p_ws) {

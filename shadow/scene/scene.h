@@ -69,15 +69,15 @@ struct CameraPath {
 
 struct Scene {
     std::string name;
-    std::vector<vec3> positions_ws;  ///< per vertex, metres, relative to origin
-    std::vector<vec3> normals_ws;    ///< per vertex, unit shading normals
-    std::vector<vec2> uvs;           ///< per vertex, for the base colour texture
-    std::vector<uvec3> triangles;    ///< vertex indices, all < positions_ws.size()
-    std::vector<Object> objects;     ///< cover all triangles in order
-    std::vector<Material> materials; ///< never empty
+    std::vector<vec3> positions_ws;   ///< per vertex, metres, relative to origin
+    std::vector<vec3> normals_ws;     ///< per vertex, unit shading normals
+    std::vector<vec2> uvs;            ///< per vertex, for the base colour texture
+    std::vector<uvec3> triangles;     ///< vertex indices, all < positions_ws.size()
+    std::vector<Object> objects;      ///< cover all triangles in order
+    std::vector<Material> materials;  ///< never empty
     std::vector<Texture> textures;
-    std::vector<Light> lights;       ///< never empty after finish_scene
-    std::vector<Camera> cameras;     ///< never empty after finish_scene
+    std::vector<Light> lights;    ///< never empty after finish_scene
+    std::vector<Camera> cameras;  ///< never empty after finish_scene
     std::vector<CameraPath> paths;
     Box bounds_ws;
     dvec3 origin{0};                 ///< metres; add to a position to get the file's coordinates
