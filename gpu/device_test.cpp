@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/device.h"
+
+#include "gpu/pipeline_cache.h"
+#include "gpu/test_device.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+class Devices : public Rendered {};
+
+TEST_F(Devices, TheChosenOneSaysWhy) {
+    EXPECT_FALSE(device.info().name.empty());
+    EXPECT_FALSE(device.info().driver.empty());
+    EXPECT_FALSE(device.info().why.empty());
+    EXPECT_EQ(device.info().cpu, device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU);
+    EXPECT_FALSE(device.info().cpu && device.has(Feature::timestamps)) << "a CPU's timestamps mean nothing";
+}
+
+TEST_F(Devices, AnUnknownNameListsTheKnown) {
+    const std::string error = error_of([] { Device::create({.pick = "no such device"}); });
+    EXPECT_NE(error.find("'no such device'"), std::string::npos) << error;
+    EXPECT_NE(error.find(device.info().name), std::string::npos) << error;
+}
+
+TEST_F(Devices, EveryFeatureHasANameAndAConsequence) {
+    for (int i = 0; i < feature_count; ++i) {
+        EXPECT_FALSE(feature_name(static_cast<Feature>(i)).empty());
+        EXPECT_NE(feature_consequence(static_cast<Feature>(i)).find("without"), std::string_view::npos);
+    }
+}
+
+TEST_F(Devices, TheDoctorNamesTheDeviceAndEveryFeature) {
+    const DoctorReport report = examine_machine();
+    EXPECT_TRUE(report.usable);
+    const auto mentions = [&](std::string_view text) {
+        return std::any_of(report.lines.begin(), report.lines.end(),
+                           [&](const std::string& line) { return line.find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(mentions(device.info().name));
+    for (int i = 0; i < feature_count; ++i) {
+        EXPECT_TRUE(mentions(feature_name(static_cast<Feature>(i))));
+    }
+}
+
+TEST_F(Devices, AHostsDeviceRunsAGraph) {
+    const auto adopted = Device::adopt({device.instance(),
+                                        device.physical(),
+                                        device.vk(),
+                                        device.queue(),
+                                        device.queue_family(),
+                                        {Feature::anisotropy}});
+    EXPECT_FALSE(adopted->has(Feature::shader_float64)) << "the host did not say that it enabled it";
+    EXPECT_EQ(adopted->has(Feature::anisotropy), device.has(Feature::anisotropy));
+    FrameGraph graph(*adopted);
+    const BufferHandle out = graph.create(BufferDesc{.name = "out", .bytes = 64});
+    graph.keep(out);
+    graph.add_pass(
+        "fill", [&](PassBuilder& pass) { pass.copy_to(out); }, [=](Recorder& r) { r.fill(out, 0x01020304U); });
+    graph.execute();
+    EXPECT_EQ(values_of<std::uint32_t>(graph.download(out)), std::vector<std::uint32_t>(16, 0x01020304U));
+}
+
+TEST_F(Devices, PipelinesAreMadeOnce) {
+    const ComputeDesc desc{compute_shader("once", "layout(local_size_x = 1) in; void main() {}"), {}};
+    const Pipeline& first = device.pipelines().get(desc);
+    const std::size_t count = device.pipelines().size();
+    EXPECT_EQ(&device.pipelines().get(desc), &first);
+    EXPECT_EQ(device.pipelines().size(), count);
+}
+
+TEST(Validation, CollectsMessages) {
+    // Without this, a clean log would prove nothing.
+    const auto device = Device::create({.validation = true});
+    EXPECT_TRUE(device->messages().empty());
+    const VkBufferCreateInfo nothing{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 0, .usage = 0};
+    VkBuffer buffer = VK_NULL_HANDLE;
+    if (vkCreateBuffer(device->vk(), &nothing, nullptr, &buffer) == VK_SUCCESS) {
+        vkDestroyBuffer(device->vk(), buffer, nullptr);
+    }
+    EXPECT_FALSE(device->messages().empty());
+}
+
+TEST(Validation, SeesAMissingBarrier) {
+    const auto device = Device::create({.validation = true});
+    const Buffer a(*device, {.name = "a", .bytes = 64}), b(*device, {.name = "b", .bytes = 64});
+    device->run([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, 64};
+        vkCmdFillBuffer(commands, a.vk(), 0, 64, 1);
+        vkCmdCopyBuffer(commands, a.vk(), b.vk(), 1, &region);
+    });
+    ASSERT_FALSE(device->messages().empty());
+    EXPECT_NE(device->messages().front().find("SYNC-HAZARD-READ-AFTER-WRITE"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gn
