@@ -6,6 +6,7 @@ namespace gn {
 namespace {
 
 using namespace testing_scene;
+using namespace std::string_view_literals;
 
 Scene load(std::string_view text) {
     const TempFolder folder;
@@ -31,7 +32,7 @@ TEST(Obj, ImpossibleFacesAreDroppedWithANote) {
 
 TEST(Obj, AnyLineEndingSpacingEncodingAndNumber) {
     EXPECT_EQ(load("v 0 0 0\r\nv\t+1 0. 0e0\r\nv 0 1E0 0\r\nf 1 \\\r\n 2 3").triangles.size(), 1U);
-    EXPECT_EQ(load(std::string("v\0 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 37)).triangles.size(), 1U);
+    EXPECT_EQ(load("v\0 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"sv).triangles.size(), 1U);
     std::string wide("\xFF\xFE", 2);
     for (const char c : std::string(corners) + "f 1 2 3\n") {
         wide += c;
