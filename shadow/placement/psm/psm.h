@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Parameters of perspective shadow maps.
+#ifndef GN_SHADOW_PLACEMENT_PSM_H
+#define GN_SHADOW_PLACEMENT_PSM_H
+
+#include "base/shared.h"
+
+struct GnPsmParams {
+    float back GN_DEFAULT(1.0f);  ///< metres that the virtual camera stands behind the real one
+};
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// The light's plane for a frame: where receivers lie on it, and along which direction and how far the view runs there.
+//
+// Based on: Wimmer, Scherzer, Purgathofer. Light Space Perspective Shadow Maps. EGSR 2004. [WSP04]
+#include "shadow/placement/warp.h"
+
+#include <algorithm>
+
+namespace gn::warp {
+namespace {
+
+struct View {
+    dvec3 eye, forward, right, up;
+    double tangent_x = 1, tangent_y = 1;
+};
+
+View view_of_camera(const FrameInput& input) {
+    const Camera& camera = input.samples.camera;
+    View view;
+    view.eye = camera.position_ws;
+    view.forward = glm::normalize(dvec3(camera.forward_ws));
+    view.right = glm::normalize(glm::cross(view.forward, dvec3(camera.up_ws)));
+    view.up = glm::cross(view.right, view.forward);
+    view.tangent_y = std::tan(0.5 * static_cast<double>(camera.yfov));
+    view.tangent_x = view.tangent_y * input.samples.width / input.samples.height;
+    return view;
+}
+
+dvec2 on_plane(const Plane2& plane, dvec3 p_ws) {
+    const dvec4 p(p_ws, 1);
+    return dvec2(glm::dot(plane.x_row, p), glm::dot(plane.y_row, p)) / glm::dot(plane.w_row, p);
+}
+
+dvec4 row_of(const mat4& m, int row) {
+    return dvec4(glm::transpose(dmat4(m))[row]);
+}
+
+/// The fitted view's plane in one unit on both axes, its axes still along the fitted rectangle.
+Plane2 plane_of(const GnLightView& fitted) {
+    Plane2 plane;
+    plane.fitted = fitted;
+    plane.w_row = row_of(fitted.cs_from_ws, 3);
+    const dvec3 axis = glm::normalize(dvec3(vec3(fitted.depth_from_ws)));
+    for (int i = 0; i < 2; ++i) {
+        // Take out the rectangle's shift and scale.
+        dvec4 row = row_of(fitted.cs_from_ws, i);
+        row -= plane.w_row *
+               (fitted.eye_ws.w > 0.5F ? glm::dot(dvec3(row), axis) / glm::dot(dvec3(plane.w_row), axis) : row.w);
+        (i == 0 ? plane.x_row : plane.y_row) = row / glm::length(dvec3(row));
+    }
+    return plane;
+}
+
+/// Turns the plane so that y runs along the image of the view direction at a point.
+void align(Plane2& plane, dvec2 along) {
+    const dvec2 t = glm::normalize(along);
+    const dvec4 x = t.y * plane.x_row - t.x * plane.y_row;
+    plane.y_row = t.x * plane.x_row + t.y * plane.y_row;
+    plane.x_row = x;
+    // The fitted rectangle stands at this angle, of the four that differ by quarter turns the smallest.
+    constexpr double quarter = std::numbers::pi / 2;
+    const double angle = std::atan2(t.x, t.y);
+    plane.turn = angle - quarter * std::round(angle / quarter);
+}
+
+std::vector<Spot> spots_of(const Plane2& plane, const ConvexBody& body, const View& view) {
+    std::vector<Spot> spots;
+    for (const dvec3& p : body.vertices()) {
+        const double w = glm::dot(plane.w_row, dvec4(p, 1));
+        if (w > 1e-6) {
+            spots.push_back({on_plane(plane, p), glm::dot(p - view.eye, view.forward), w});
+        }
+    }
+    return spots;
+}
+
+/// Angle of view and light at a point, and of the frustum's border in the plane that both span.
+void set_angles(Plane2& plane, const View& view, dvec3 ray) {
+    const double cosine = std::min(1.0, std::abs(glm::dot(ray, view.forward)));
+    plane.angle = std::acos(cosine);
+    const dvec3 aside = ray - glm::dot(ray, view.forward) * view.forward;
+    const double x = std::abs(glm::dot(aside, view.right));
+    const double y = std::abs(glm::dot(aside, view.up));
+    const double size = glm::length(aside);
+    plane.half_field =
+        std::atan(std::min(view.tangent_x * size / std::max(x, 1e-12), view.tangent_y * size / std::max(y, 1e-12)));
+}
+
+/// Everything that the strength of a warp depends on; nothing where there is no direction or depth to warp along.
+std::optional<Plane2> warp_plane(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                                 const Recipe& recipe, double pseudo_near) {
+    const View view = view_of_camera(input);
+    Plane2 plane = plane_of(fitted);
+    const bool positional = fitted.eye_ws.w > 0.5F;
+
+    // The view direction's image at the body's centre.
+    dvec3 centre(0);
+    const std::vector<dvec3> vertices = body.vertices();
+    for (const dvec3& p : vertices) {
+        centre += p / static_cast<double>(vertices.size());
+    }
+    const dvec3 axis(vec3(input.light().shape.direction_ws));
+    set_angles(plane, view, positional ? glm::normalize(centre - dvec3(vec3(fitted.eye_ws))) : axis);
+    const dvec2 q = on_plane(plane, centre);
+    const dvec2 along(glm::dot(dvec3(plane.x_row - q.x * plane.w_row), view.forward),
+                      glm::dot(dvec3(plane.y_row - q.y * plane.w_row), view.forward));
+    if (std::sin(plane.angle) < 1e-3 || glm::length(along) <= 0) {
+        return std::nullopt;
+    }
+    align(plane, along);
+
+    // What the map holds, and what the warp is chosen for.
+    plane.spots = spots_of(plane, body, view);
+    double end = 0;
+    for (const Spot& spot : plane.spots) {
+        end = std::max(end, spot.depth);
+    }
+    const double first = std::min(pseudo_near, 0.1 * end);
+    const ConvexBody beyond = clip(body, {view.forward, -glm::dot(view.forward, view.eye) - first});
+    plane.far_spots = spots_of(plane, beyond, view);
+    plane.near = plane.start = 1e300;
+    double last = -1e300;
+    for (const Spot& spot : plane.far_spots) {
+        plane.near = std::min(plane.near, spot.depth);
+        plane.far = std::max(plane.far, spot.depth);
+        plane.start = std::min(plane.start, spot.q.y);
+        last = std::max(last, spot.q.y);
+    }
+    plane.near = std::max(plane.near, 1e-5 * plane.far);
+    plane.length = last - plane.start;
+
+    // Room for kernels; a world radius reaches beyond a light's cone only where nothing receives.
+    const Guard guard = guard_of(recipe);
+    plane.reach = positional ? 0 : static_cast<double>(guard.metres);
+    plane.share = std::min(0.4, static_cast<double>(guard.texels) / recipe.resolution);
+    const bool flat = plane.far_spots.size() < 3 || plane.far < 1.001 * plane.near || plane.length <= 0;
+    return flat ? std::nullopt : std::optional(plane);
+}
+
+}  // namespace
+
+LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_near, Choose choose) {
+    const GnLight& light = input.light().shape;
+    LightViews views;
+    views.resolution = static_cast<std::uint32_t>(recipe.resolution);
+    ConvexBody body = potential_receivers(input);
+    const bool nothing = body.empty();
+    if (nothing) {
+        // Nothing can receive: any view will do.
+        body = body_of(Box{vec3(-1), vec3(1)});
+    }
+
+    // Fit without a warp; receivers around the light take six views.
+    GnLightView fitted;
+    if (light.kind == GN_LIGHT_DIRECTIONAL) {
+        fitted = fit_orthographic(body, light, recipe.resolution, guard_of(recipe));
+    } else {
+        const Fitted fit = fit_perspective(body, light, input.scene.bounds_ws, recipe.resolution, guard_of(recipe));
+        if (!fit.valid) {
+            add_cube_views(views, input, recipe);
+            return views;
+        }
+        fitted = fit.view;
+    }
+
+    // Warp.
+    const auto plane = nothing ? std::nullopt : warp_plane(input, body, fitted, recipe, pseudo_near);
+    views.views = {plane ? choose(*plane, recipe) : fitted};
+    return views;
+}
+
+}  // namespace gn::warp
