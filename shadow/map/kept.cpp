@@ -105,10 +105,10 @@ void add_unwrap(const FrameInput& input, const LightViews& views, const CasterPa
         [&](PassBuilder& builder) {
             if (pass.color.valid()) {
                 builder.color(pass.color, Load::discard, {}, one_layer(layer));
-                builder.sample(textures.color, one_layer(layer));
+                builder.sample(textures.color);
             }
             builder.depth(pass.depth, Load::discard, {}, one_layer(layer));
-            builder.sample(textures.depth, one_layer(layer));
+            builder.sample(textures.depth);
         },
         [push, textures](Recorder& r) {
             r.bind(unwrap_pipeline(textures.color.valid()));
@@ -135,12 +135,13 @@ void add_kept_passes(const FrameInput& input, const Recipe& recipe, const LightV
     const KeptViews& kept = *views.kept;
     const KeptTextures textures = import_kept(input, kept, pass);
     for (std::size_t i = 0; i < kept.layers.size(); ++i) {
-        const auto layer = static_cast<std::uint32_t>(i);
         const std::vector<KeptDraw>& draws = textures.fresh ? kept.layers[i].whole : kept.layers[i].revealed;
         if (!draws.empty()) {
-            add_draws(input, recipe, views, pass, textures, layer, draws);
+            add_draws(input, recipe, views, pass, textures, static_cast<std::uint32_t>(i), draws);
         }
-        add_unwrap(input, views, pass, textures, layer, kept.layers[i].shift);
+    }
+    for (std::size_t i = 0; i < kept.layers.size(); ++i) {
+        add_unwrap(input, views, pass, textures, static_cast<std::uint32_t>(i), kept.layers[i].shift);
     }
 }
 

@@ -3,7 +3,7 @@
 // light space; views are written by a shader and read by shaders. Nothing is read back, nothing lags a frame.
 //
 // Based on: Lauritzen, Salvi, Lefohn. Sample Distribution Shadow Maps. I3D 2011. [LSL10]
-// Departs from it: only samples that face the light count, and an invocation reduces a column of pixels in registers
+// Departs from it: the histogram's splits minimize the mean size of a texel, where the paper's partitions are heuristics; only samples that face the light count, and an invocation reduces a column of pixels in registers
 // before one atomic, where the paper uses shared memory.
 #include "shadow/placement/cascades/sdsm.h"
 
@@ -80,11 +80,16 @@ void main() {
 }
 )";
 
-// Slices of equal ratio between nearest and farthest ([LSL10] 3.1), or of an equal share of the ratios where samples
-// are: gaps between the samples take no slice (adaptive logarithmic partitions, [LSL10] 3.2).
+// Slices of equal ratio between nearest and farthest ([LSL10] 3.1); or, where the histogram counts, those that minimize the
+// mean over all samples of the size of their texels: a slice that ends at z has texels proportional to z, and a sample errs
+// where an edge lies within a texel of it. Gaps between the samples take no slice by themselves.
 constexpr const char* splits_text = R"(
 layout(local_size_x = 1) in;
-float share(int bin, float few) { return min(1.0, float(r.bins[bin]) / few); }
+const int COARSE = 64;  // bins that a slice can end at
+const float NEVER = 1.0e30;
+
+float edge(int bin) { return gn_cascades_log(u.near, u.far, float(bin) / float(COARSE)); }
+
 void main() {
     bool none = r.farthest == 0u;
     float near = none ? 1.0 : unordered(~r.nearest) * (1.0 - 1.0e-5);
@@ -96,27 +101,42 @@ void main() {
     if (none || u.params.split != GN_SPLIT_SDSM_HISTOGRAM) {
         return;
     }
-    // A bin with few samples has little to say.
-    uint samples = 0u;
-    for (int b = 0; b < GN_SDSM_BINS; ++b) {
-        samples += r.bins[b];
-    }
-    float few = max(1.0, float(samples) / 2048.0);
-    float total = 0.0;
-    for (int b = 0; b < GN_SDSM_BINS; ++b) {
-        total += share(b, few);
-    }
-    // Walk to every i / n of the shares.
-    int i = 1;
-    float sum = 0.0;
-    for (int b = 0; b < GN_SDSM_BINS; ++b) {
-        float here = share(b, few);
-        while (i < count && here > 0.0 && sum + here >= total * float(i) / float(count)) {
-            float t = (float(b) + (total * float(i) / float(count) - sum) / here) / float(GN_SDSM_BINS);
-            r.ends[i] = clamp(gn_cascades_log(u.near, u.far, t), r.ends[i - 1], far);
-            i += 1;
+    // Samples before every edge.
+    float sums[COARSE + 1];
+    sums[0] = 0.0;
+    for (int b = 0; b < COARSE; ++b) {
+        sums[b + 1] = sums[b];
+        for (int fine = 0; fine < GN_SDSM_BINS / COARSE; ++fine) {
+            sums[b + 1] += float(r.bins[b * (GN_SDSM_BINS / COARSE) + fine]);
         }
-        sum += here;
+    }
+    // best[b]: least cost of all samples before edge b in i slices, the last beginning at edge starts[i][b].
+    float best[COARSE + 1];
+    int starts[GN_CASCADES_MOST * (COARSE + 1)];
+    for (int b = 0; b <= COARSE; ++b) {
+        best[b] = min(edge(b), far) * sums[b];
+        starts[b] = 0;
+    }
+    for (int i = 1; i < count; ++i) {
+        for (int b = COARSE; b >= 1; --b) {
+            float least = NEVER;
+            int start = 0;
+            for (int a = 0; a <= b; ++a) {
+                float cost = best[a] + min(edge(b), far) * (sums[b] - sums[a]);
+                if (cost < least) {
+                    least = cost;
+                    start = a;
+                }
+            }
+            best[b] = least;
+            starts[i * (COARSE + 1) + b] = start;
+        }
+    }
+    // Walk back from the last slice.
+    int b = COARSE;
+    for (int i = count - 1; i >= 1; --i) {
+        b = starts[i * (COARSE + 1) + b];
+        r.ends[i] = clamp(edge(b), near, r.ends[i + 1]);
     }
 }
 )";
