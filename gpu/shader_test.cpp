@@ -123,8 +123,9 @@ TEST_F(Shaders, ADamagedEntryIsIgnoredAndRepaired) {
 }
 
 TEST_F(Shaders, AChangedIncludeIsCompiledAgain) {
-    const auto source = compute_shader("uses", R"(
-#include "outer.glsl"
+    const auto source = compute_shader("uses",
+                                       "#include \"outer.glsl\"\n"
+                                       R"(
 layout(local_size_x = 1) in;
 layout(binding = 0, scalar) buffer Out { float v; } result;
 void main() { result.v = inner(); }
