@@ -164,6 +164,32 @@ TEST(Compare, RefusedIsNoFailureUnlessStrict) {
     EXPECT_EQ(run_gnomon(strict).status, 1);
 }
 
+TEST(Compare, ARunThatServedSomeLightsSaysWhichItDidNot) {
+    const ScratchFolder folder;
+    const Words asked =
+        small({"compare", "courtyard", "-r", "hard,placement=single", "--json", "-", "-o", folder / "report"});
+    const CommandResult result = run_gnomon(asked);
+    EXPECT_EQ(result.status, 0) << result.err;
+    expect_has(result.err, {"light 'lantern' refused", "single"});
+    const json document = json::parse(result.out);
+    expect_valid(document);
+    const json& run = document.at("runs").at(0);
+    EXPECT_EQ(run.at("status"), "ok");
+    int samples = 0;
+    for (const json& light : run.at("lights")) {
+        const bool lantern = light.at("name") == "lantern";
+        EXPECT_EQ(light.at("status"), lantern ? "refused" : "ok");
+        EXPECT_EQ(light.at("error").at("rmse").is_null(), lantern);
+        samples += light.at("samples").get<int>();
+    }
+    // Only the lights that were served are pooled.
+    EXPECT_EQ(run.at("samples"), samples);
+    // A run that is taken from the cache is judged like one that was just measured.
+    Words strict = asked;
+    strict.emplace_back("--strict");
+    EXPECT_EQ(run_gnomon(strict).status, 1);
+}
+
 TEST(Compare, AStoppedComparisonKeepsWhatItHas) {
     const ScratchFolder folder;
     Words arguments = small({"compare", "slab", "-o", folder / "report", "--json", folder / "figures.json", "-r"});

@@ -55,6 +55,18 @@ std::string users_of(const Part& part) {
     return list.empty() ? "none that names it" : list;
 }
 
+/// The part's page without the lines between its first two "---", which repeat what is printed above it.
+std::string page_of(const Part& part) {
+    const std::string name = identifier(part.id);
+    std::ifstream file(data_root() / "shadow" / stage_of(part) / name / (name + ".md"), std::ios::binary);
+    std::stringstream stream;
+    stream << file.rdbuf();
+    const std::string text = stream.str();
+    const std::size_t end = text.starts_with("---\n") ? text.find("\n---\n", 3) : std::string::npos;
+    const std::size_t body = end == std::string::npos ? 0 : text.find_first_not_of('\n', end + 5);
+    return body == std::string::npos ? "" : text.substr(body);
+}
+
 void show_part(const Part& part) {
     fmt::print("{} '{}': {}\n\n", stage_of(part), part.id, part.title);
     // What a reader of the table of contents wants to know first.
@@ -68,11 +80,8 @@ void show_part(const Part& part) {
     fmt::print("{}", features.empty() ? "" : fmt::format("  features  {}\n", features));
     fmt::print("  recipes   {}\n\n", users_of(part));
     // The page itself, then the rows.
-    const std::string name = identifier(part.id);
-    std::ifstream page(data_root() / "shadow" / stage_of(part) / name / (name + ".md"), std::ios::binary);
-    std::stringstream text;
-    text << page.rdbuf();
-    fmt::print("{}{}", text.str(), text.str().empty() ? "" : "\n");
+    const std::string page = page_of(part);
+    fmt::print("{}{}", page, page.empty() ? "" : "\n");
     if (part.params.rows.empty()) {
         fmt::print("It has no parameters.\n");
     } else {

@@ -111,7 +111,7 @@ class Comparer {
         const std::string key = cache_.run_key(view.key(), asked.recipe);
         if (auto known = cache_.find_run(key); known && view.result.reference.samples > 0) {
             spdlog::info("{} with {}: taken from an earlier run", view.result.scene, asked.text);
-            comparison_.runs.push_back(std::move(*known));
+            take(std::move(*known));
             return true;
         }
         // Trace what is missing, then measure; what fails becomes a failed run.
@@ -193,8 +193,16 @@ class Comparer {
     }
 
     void take(RunResult run) {
-        const bool light_refused = std::any_of(run.lights.begin(), run.lights.end(),
-                                               [](const LightResult& light) { return light.status == "refused"; });
+        // A run that left lights out is ok, but nobody should have to find that out from the figures.
+        bool light_refused = false;
+        for (const LightResult& light : run.lights) {
+            if (light.status == "refused" && run.status == "ok") {
+                light_refused = true;
+                progress_.clear();
+                fmt::print(stderr, "gnomon: {} with {}: light '{}' refused: {}\n", run.scene, run.recipe, light.name,
+                           light.reason);
+            }
+        }
         if (run.status == "failed") {
             worsen(exit_failed);
         }

@@ -11,6 +11,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace gn {
 namespace {
 
@@ -30,6 +32,14 @@ std::string for_script_element(std::string json) {
         json.replace(at, 1, "\\u003c");
     }
     return json;
+}
+
+/// "ok", or "ok, 2 of 3 lights" when some were refused.
+std::string status_of(const RunResult& run) {
+    const auto served =
+        std::count_if(run.lights.begin(), run.lights.end(), [](const auto& l) { return l.status == "ok"; });
+    const bool all = served == static_cast<std::ptrdiff_t>(run.lights.size());
+    return run.status != "ok" || all ? run.status : fmt::format("ok, {} of {} lights", served, run.lights.size());
 }
 
 std::string milliseconds(std::optional<double> value) {
@@ -65,10 +75,10 @@ std::string summary_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (const RunResult& run : comparison.runs) {
         const Errors& e = run.errors;
-        rows.push_back({run.scene, run.overrides.empty() ? run.recipe : run.recipe + "," + run.overrides, run.status,
-                        figure(e.rmse), figure(e.mismatch), figure(e.leak), figure(e.acne), figure(e.penumbra),
-                        figure(e.flip), milliseconds(run.shadow.median), milliseconds(run.frame.median),
-                        run.status == "ok" ? human_bytes(run.bytes) : "-"});
+        rows.push_back({run.scene, run.overrides.empty() ? run.recipe : run.recipe + "," + run.overrides,
+                        status_of(run), figure(e.rmse), figure(e.mismatch), figure(e.leak), figure(e.acne),
+                        figure(e.penumbra), figure(e.flip), milliseconds(run.shadow.median),
+                        milliseconds(run.frame.median), run.status == "ok" ? human_bytes(run.bytes) : "-"});
     }
     return text_table(header, rows, 3);
 }

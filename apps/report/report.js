@@ -32,6 +32,12 @@ function bytes(value) {
 }
 const fullName = run => run.overrides ? `${run.recipe}, ${run.overrides.replaceAll(',', ', ')}` : run.recipe;
 const nameOf = run => [run.recipe, run.overrides ? el('span', {class: 'override'}, ' ' + run.overrides.replaceAll(',', ', ')) : null];
+const refusedLights = run => run.status === 'ok' ? run.lights.filter(light => light.status === 'refused') : [];
+function shortOf(run) {
+  const refused = refusedLights(run);
+  return refused.length ? el('span', {class: 'status refused', title: refused.map(light => `${light.name}: ${light.reason}`).join('\n')},
+    `${run.lights.length - refused.length} of ${run.lights.length} lights`) : null;
+}
 const statusOf = item => el('span', {class: 'status ' + item.status}, item.status);
 
 function command(text) {
@@ -45,19 +51,19 @@ function command(text) {
 }
 
 // A table whose columns sort by a button in their head; absent values stay last either way.
-// column: {title, hint, text?, best?, value(row), show(row)}
-function sortableTable(caption, columns, rows) {
+// column: {title, hint, text?, best?, value(row), show(row)}; values are held against those of rows with the same groupOf.
+function sortableTable(caption, columns, rows, groupOf = () => '') {
   const body = el('tbody');
   const heads = columns.map((column, c) => el('th', {scope: 'col', class: column.text ? 'text' : null, title: column.hint},
     el('button', {type: 'button', onclick: () => sort(c)}, column.title)));
-  const ranges = columns.map(column => rows.map(column.value).filter(value => typeof value === 'number'));
-  const lines = rows.map(row => ({row, line: el('tr', {}, columns.map((column, c) => cell(column, ranges[c], row, c)))}));
-  function cell(column, range, row, c) {
+  const lines = rows.map(row => ({row, line: el('tr', {}, columns.map((column, c) => cell(column, row, c)))}));
+  function cell(column, row, c) {
     const shown = column.show(row);
     if (c === 0) return el('th', {scope: 'row'}, shown);
     const node = el('td', {class: column.text ? 'text' : null}, shown);
     const value = column.value(row);
     if (column.best && typeof value === 'number') {
+      const range = rows.filter(other => groupOf(other) === groupOf(row)).map(column.value).filter(other => typeof other === 'number');
       const most = Math.max(...range);
       node.classList.add('measured');
       node.style.setProperty('--share', most > 0 ? value / most : 0);
@@ -90,7 +96,7 @@ const metricColumns = of => data.metrics.map(metric => ({
 
 function errorTable(scene, runs) {
   const columns = [
-    {title: 'recipe', text: true, value: fullName, show: run => [nameOf(run), run.status === 'ok' ? null : [' ', statusOf(run)]].flat(2)},
+    {title: 'recipe', text: true, value: fullName, show: run => [nameOf(run), run.status === 'ok' ? [' ', shortOf(run)] : [' ', statusOf(run)]].flat(2).filter(Boolean)},
     ...metricColumns(run => run.error),
     {title: 'shadow ms', hint: 'Median time of all passes that exist only because of shadows', best: true,
       value: run => run.time_ms.shadow.median, show: run => milliseconds(run.time_ms.shadow.median)},
@@ -103,7 +109,7 @@ function errorTable(scene, runs) {
 }
 
 function lightTable(scene, runs) {
-  const rows = runs.flatMap(run => run.lights.map(light => ({run, light})));
+  const rows = scene.lights.flatMap((_, l) => runs.filter(run => run.lights[l]).map(run => ({run, light: run.lights[l], l})));
   const columns = [
     {title: 'light', text: true, value: row => row.light.name, show: row => row.light.name},
     {title: 'recipe', text: true, value: row => fullName(row.run), show: row => nameOf(row.run)},
@@ -115,7 +121,7 @@ function lightTable(scene, runs) {
       ? el('div', {class: 'reason'}, row.light.reason)
       : row.light.error_map ? el('a', {href: row.light.error_map}, picture(row.light.error_map, `Signed error of ${fullName(row.run)} for light ${row.light.name}`, scene, 'thumb')) : absent},
   ];
-  return sortableTable(`Errors by light in ${scene.name}`, columns, rows);
+  return sortableTable(`Errors by light in ${scene.name}`, columns, rows, row => row.l);
 }
 
 function picture(source, description, scene, style) {
