@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/placement/faces.glsl"
 #include "shadow/placement/receivers.h"
-#include "tests/rig.h"
+#include "tests/warp_scene.h"
 
+#include <algorithm>
 #include <random>
 
 namespace gn {
@@ -47,6 +48,81 @@ TEST(Cube, NoSeamBetweenFaces) {
     const auto fitted = test::compare("overlap:light=point,hard=1", "hard,placement=fit,resolution=512");
     EXPECT_LE(*c.errors.acne, 1e-3 + *fitted.errors.acne);
     EXPECT_LE(*c.errors.mismatch, 4 * *fitted.errors.mismatch + 1e-3);
+}
+
+constexpr const char* equal = "pcf,pcf.size=5,placement=cube,resolution=512";
+constexpr const char* by_coverage = "pcf,pcf.size=5,placement=cube,cube.resolution=coverage,resolution=512";
+
+/// Squares of one layer do not overlap, and each leaves its kernels room inside itself.
+TEST(CubeCoverage, SquaresLieApartInsideTheirLayers) {
+    for (const char* name : {"overlap:light=point", "contact:light=point", "duel:light=point", "tilted:light=point"}) {
+        const LightViews views = test::place(load_scene(name), by_coverage);
+        ASSERT_EQ(views.views.size(), 6U);
+        EXPECT_LT(views.layers, 6U) << name;
+        EXPECT_TRUE(
+            std::any_of(views.views.begin(), views.views.end(), [](const GnLightView& v) { return v.rect_ts.z == 1; }))
+            << name << ": the face that covers most keeps all texels";
+        for (std::size_t i = 0; i < 6; ++i) {
+            const vec4 a = views.views[i].rect_ts;
+            EXPECT_LE(std::max(a.x + a.z, a.y + a.w), 1) << name;
+            EXPECT_LT(views.views[i].layer, static_cast<int>(views.layers)) << name;
+            for (std::size_t j = 0; j < i; ++j) {
+                const vec4 b = views.views[j].rect_ts;
+                const bool apart = a.x >= b.x + b.z || b.x >= a.x + a.z || a.y >= b.y + b.w || b.y >= a.y + a.w;
+                EXPECT_TRUE(apart || views.views[i].layer != views.views[j].layer) << name << " " << i << " " << j;
+            }
+        }
+    }
+}
+
+TEST(CubeCoverage, DirectionsFallInsideTheirSquareWithRoomForTheKernel) {
+    const Scene scene = load_scene("duel:light=point");
+    const LightViews views = test::place(scene, by_coverage);
+    const vec3 eye_ws(scene.lights[0].shape.position_ws);
+    const float guard = guard_of(load_recipe(by_coverage)).texels;
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 d_ws = glm::normalize(vec3(normal(random), normal(random), normal(random)));
+        const GnLightView& view = views.views[static_cast<std::size_t>(glsl::gn_face_of(d_ws))];
+        const vec4 p_cs = view.cs_from_ws * vec4(eye_ws + 4.0F * d_ws, 1);
+        const float room = 1 - 2 * guard / (512 * view.rect_ts.z) + 1e-4F;
+        EXPECT_LE(std::max(std::abs(p_cs.x), std::abs(p_cs.y)) / p_cs.w, room);
+    }
+}
+
+/// No view sample asks a face that nothing is drawn to.
+TEST(CubeCoverage, FacesThatAreSkippedHaveNoReceivers) {
+    for (const char* name : {"overlap:light=point", "contact:light=point", "duel:light=point"}) {
+        const Scene scene = load_scene(name);
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        const CpuSamples cpu = render_samples(test::device(), gpu, scene.cameras[0], 96, 96);
+        const LightViews views = test::place(scene, by_coverage, 96, 96);
+        std::size_t skipped = 0;
+        for (const auto& casters : views.casters) {
+            skipped += casters.empty() ? 1 : 0;
+        }
+        EXPECT_GE(skipped, 1U) << name;
+        for (const vec4& p : cpu.position_ws) {
+            if (p.w > 0.5F) {
+                const vec3 d_ws = vec3(p) - vec3(scene.lights[0].shape.position_ws);
+                ASSERT_FALSE(views.casters[static_cast<std::size_t>(glsl::gn_face_of(d_ws))].empty()) << name;
+            }
+        }
+    }
+}
+
+/// Kernels read their own square only: where all faces are as fine, the picture is that of equal faces.
+TEST(CubeCoverage, NoSeamUnderAnyKernel) {
+    for (const char* kernel :
+         {"", ",pcf.size=9", ",pcf.kernel=vogel,pcf.radius=6", ",pcf.kernel=gaussian,pcf.size=7"}) {
+        for (const char* scene : {"overlap:light=point,hard=1", "tilted:light=point", "tilted:light=point,angle=75"}) {
+            const auto even = test::compare(scene, std::string(equal) + kernel);
+            const auto uneven = test::compare(scene, std::string(by_coverage) + kernel);
+            EXPECT_LE(uneven.errors.acne.value_or(0), 1e-3 + even.errors.acne.value_or(0)) << scene << kernel;
+            EXPECT_LE(*uneven.errors.mismatch, 2 * *even.errors.mismatch + 1e-3) << scene << kernel;
+        }
+    }
 }
 
 }  // namespace

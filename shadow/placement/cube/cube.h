@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Parameters of six faces around a light.
+#ifndef GN_SHADOW_PLACEMENT_CUBE_H
+#define GN_SHADOW_PLACEMENT_CUBE_H
+
+#include "base/shared.h"
+
+#define GN_CUBE_EQUAL 0
+#define GN_CUBE_COVERAGE 1
+
+struct GnCubeParams {
+    int resolution GN_DEFAULT(GN_CUBE_EQUAL);
+};
+
+#endif
