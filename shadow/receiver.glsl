@@ -58,6 +58,9 @@ struct GnPlacementData {
 // Smallest depth difference that is not rounding: the rasterizer interpolates a 24-bit significand.
 const float gn_depth_epsilon = 4.0f / 16777216.0f;
 
+// Beyond it a plane seen edge-on would give depths behind the eye.
+const float gn_least_divisor = 1.0e-3f;
+
 // Unit direction from p_ws to the view's eye.
 GN_FN vec3 gn_to_eye(GnLightView view, vec3 p_ws) {
     return view.eye_ws.w > 0.5f ? normalize(vec3(view.eye_ws) - p_ws) : vec3(view.eye_ws);
@@ -123,9 +126,19 @@ GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
         return projected.depth;
     }
     vec2 d_ts = uv_ts - projected.uv_ts;
-    float divisor = 1.0f - dot(projected.plane_fall, d_ts);
-    float offset = dot(projected.plane_slope, d_ts);
-    return divisor > 1.0e-3f ? projected.depth + offset / divisor : projected.depth;
+    float divisor = max(1.0f - dot(projected.plane_fall, d_ts), gn_least_divisor);
+    return projected.depth + dot(projected.plane_slope, d_ts) / divisor;
+}
+
+// Whether four occluders at four points leave the receiver's plane lit: gn_depth_at <= occluder without the division.
+GN_FN bvec4 gn_lit_at(GnProjected projected, vec4 u_ts, vec4 v_ts, vec4 occluder, GnBias bias) {
+    vec4 room = occluder - projected.depth;
+    vec4 du_ts = u_ts - projected.uv_ts.x;
+    vec4 dv_ts = v_ts - projected.uv_ts.y;
+    float plane = bias.receiver_plane == 0 ? 0.0f : 1.0f;
+    vec4 divisor = max(1.0f - plane * (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts), gn_least_divisor);
+    vec4 offset = plane * (projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts);
+    return lessThanEqual(offset, room * divisor);
 }
 
 // A length across the rays at the receiver, in texels of the map's u axis and v axis.

@@ -52,6 +52,35 @@ TEST_P(Projection, DepthOfThePlaneIsExactUnderAnyProjection) {
     }
 }
 
+TEST_P(Projection, FourAtOnceAnswerAsOneByOne) {
+    const GnLightView& view = GetParam();
+    const auto projected =
+        glsl::gn_project(receiver_at(vec3(0.2F, 1, 0.1F), glm::normalize(vec3(0.5F, 1, 0.2F))), view, GnBias{});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(-0.01F, 0.01F);
+    int lit = 0;
+    for (int i = 0; i < 100; ++i) {
+        vec4 u(0);
+        vec4 v(0);
+        vec4 occluder(0);
+        for (int k = 0; k < 4; ++k) {
+            u[k] = projected.uv_ts.x + uniform(random);
+            v[k] = projected.uv_ts.y + uniform(random);
+            occluder[k] = projected.depth + 0.3F * uniform(random);
+        }
+        const glm::bvec4 four = glsl::gn_lit_at(projected, u, v, occluder, GnBias{});
+        for (int k = 0; k < 4; ++k) {
+            const float depth = glsl::gn_depth_at(projected, vec2(u[k], v[k]), GnBias{});
+            if (std::abs(depth - occluder[k]) > 1e-6F) {
+                EXPECT_EQ(four[k], depth <= occluder[k]);
+                lit += four[k] ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(lit, 50);
+    EXPECT_LT(lit, 350);
+}
+
 TEST_P(Projection, TexelSizeIsTheWorldLengthOfATexel) {
     const GnLightView& view = GetParam();
     const vec3 p_ws(0.3F, 1, -0.2F);
@@ -81,7 +110,7 @@ TEST_P(Projection, BiasMovesTowardsTheLightByTexelsAndMetres) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, Projection, ::testing::Values(sun_view(), spot_view()),
-                         [](const auto& info) { return info.index == 0 ? "Sun" : "Spot"; });
+                         [](const auto& view) { return view.index == 0 ? "Sun" : "Spot"; });
 
 TEST(Projection, ReceiverBehindTheEyeIsOutside) {
     const auto projected = glsl::gn_project(receiver_at(vec3(0, 11, 0), vec3(0, 1, 0)), spot_view(), no_bias);

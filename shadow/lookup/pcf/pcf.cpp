@@ -26,14 +26,17 @@ Guard guard(const Recipe& recipe) {
                                    : Guard{.texels = params.radius + 1};
 }
 
-/// Fixes the loops' counts and brings the generated set of taps.
+/// Fixes the kernel and the loops' counts, and brings the generated set of taps.
 std::string prologue(const Recipe& recipe) {
     const auto params = recipe.of<GnPcfParams>("pcf");
+    std::string text = fmt::format("#define GN_PCF_KERNEL {}\n", params.kernel);
     if (is_grid(params)) {
         const int size = glsl::gn_pcf_size(params.kernel, params.size);
-        return fmt::format("#define GN_PCF_FOOTPRINT {}\n", glsl::gn_pcf_footprint(params.kernel, size));
+        text += fmt::format("#define GN_PCF_SIZE {}\n", size);
+        text += fmt::format("#define GN_PCF_FOOTPRINT {}\n", glsl::gn_pcf_footprint(params.kernel, size));
+        return text;
     }
-    std::string text = fmt::format("#define GN_PCF_TAPS {}\n", params.taps);
+    text += fmt::format("#define GN_PCF_TAPS {}\n", params.taps);
     if (params.kernel != GN_PCF_VOGEL) {
         text += glsl_array(poisson_disc(params.taps, static_cast<unsigned>(params.seed)), "gn_pcf_points");
         text += "#define GN_PCF_POINT(i) gn_pcf_points[i]\n";

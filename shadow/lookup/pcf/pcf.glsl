@@ -89,6 +89,12 @@ GN_FN float gn_pcf_angle(vec2 p_ss) {
 #ifndef GN_PCF_TAPS
 #define GN_PCF_TAPS params.taps
 #endif
+#ifndef GN_PCF_KERNEL
+#define GN_PCF_KERNEL params.kernel
+#endif
+#ifndef GN_PCF_SIZE
+#define GN_PCF_SIZE gn_pcf_size(params.kernel, params.size)
+#endif
 
 float gn_pcf_lit(GnProjected projected, GnBias bias, vec2 centre_ts, float occluder) {
     return gn_depth_at(projected, centre_ts, bias) <= occluder ? 1.0 : 0.0;
@@ -112,11 +118,9 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
             // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
             vec2 corner_ts = vec2(first + ivec2(x, y) + 1) * projected.texel_ts;
             vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
-            vec2 h = vec2(0.5, -0.5) * projected.texel_ts;
-            vec4 lit = vec4(gn_pcf_lit(projected, bias, corner_ts + h.yx, occluder.x),
-                            gn_pcf_lit(projected, bias, corner_ts + h.xx, occluder.y),
-                            gn_pcf_lit(projected, bias, corner_ts + h.xy, occluder.z),
-                            gn_pcf_lit(projected, bias, corner_ts + h.yy, occluder.w));
+            vec4 u_ts = corner_ts.x + vec4(-0.5, 0.5, 0.5, -0.5) * projected.texel_ts;
+            vec4 v_ts = corner_ts.y + vec4(0.5, 0.5, -0.5, -0.5) * projected.texel_ts;
+            vec4 lit = vec4(gn_lit_at(projected, u_ts, v_ts, occluder, bias));
             vec4 weight = vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);
             sum += dot(lit, weight);
             total += dot(vec4(1.0), weight);
@@ -167,7 +171,8 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
 
 float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
                         GnPcfParams params) {
-    params.size = gn_pcf_size(params.kernel, params.size);
+    params.kernel = GN_PCF_KERNEL;
+    params.size = GN_PCF_SIZE;
     return params.kernel <= GN_PCF_GAUSSIAN ? gn_pcf_grid(projected, bias, map, params)
                                             : gn_pcf_discs(receiver, projected, bias, map, params);
 }
