@@ -20,6 +20,9 @@ struct GnLightView {
     int layer GN_DEFAULT(0);
     int affine_depth GN_DEFAULT(1);  ///< 1: rasterized z/w already is the linear depth (no fragment shader needed)
     float grid GN_DEFAULT(0.0f);  ///< affine views that keep their texels: rounds clip coordinates, see gn_clip; else 0
+    float paraboloid
+        GN_DEFAULT(0.0f);  ///< above 0: cs_from_ws gives metres in the light's frame, the map covers this far
+                           ///< in the coordinates of shadow/paraboloid.glsl, depth is the distance
 };
 
 #ifdef __cplusplus

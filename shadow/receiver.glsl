@@ -11,6 +11,7 @@
 #include "base/shared.h"
 #include "shadow/bias.h"
 #include "shadow/light_view.h"
+#include "shadow/paraboloid.glsl"
 #include "shadow/scene/light.h"
 
 #ifdef __cplusplus
@@ -34,6 +35,7 @@ struct GnProjected {
     int layer;
     vec2 plane_slope;       // depth of the receiver's plane at uv + d: depth + dot(slope, d) / (1 - dot(fall, d))
     vec2 plane_fall;
+    vec2 plane_curve;       // of a paraboloid: slope and fall each gain dot(d, d) times this; else 0
     vec3 du_ws;             // gradient of uv_ts over the world, per metre
     vec3 dv_ws;
     float texel_ts;         // 1 / resolution
@@ -68,6 +70,48 @@ GN_FN vec3 gn_to_eye(GnLightView view, vec3 p_ws) {
 
 GN_FN vec3 gn_row(mat4 m, int i) { return vec3(m[0][i], m[1][i], m[2][i]); }
 
+// Gradients of uv_ts over the world under a paraboloid.
+GN_FN void gn_paraboloid_gradients(GnLightView view, vec3 p_ls, vec2 scale_ts, GN_OUT(vec3) du_ws, GN_OUT(vec3) dv_ws) {
+    float size = length(p_ls);
+    vec2 u = gn_paraboloid(p_ls);
+    vec3 pull = p_ls / size + vec3(0.0f, 0.0f, 1.0f);
+    vec3 gu = (vec3(1.0f, 0.0f, 0.0f) - u.x * pull) / (size + p_ls.z) * (scale_ts.x / view.paraboloid);
+    vec3 gv = (vec3(0.0f, 1.0f, 0.0f) - u.y * pull) / (size + p_ls.z) * (scale_ts.y / view.paraboloid);
+    vec3 x = gn_row(view.cs_from_ws, 0);
+    vec3 y = gn_row(view.cs_from_ws, 1);
+    vec3 z = gn_row(view.cs_from_ws, 2);
+    du_ws = gu.x * x + gu.y * y + gu.z * z;
+    dv_ws = gv.x * x + gv.y * y + gv.z * z;
+}
+
+// Projects the moved receiver on a paraboloid and sets up the depth of its plane m: along the ray of u it is
+// (1 + |u|^2) / (2 m.xy u + m.z (1 - |u|^2)), a quotient of quadratic forms, expanded around the receiver's u.
+GN_FN GnProjected gn_project_paraboloid(GnProjected result, GnLightView view, vec3 p_ls, vec3 n_ws) {
+    vec2 u = gn_paraboloid(p_ls);
+    vec2 extent_ts = vec2(view.rect_ts.z, view.rect_ts.w);
+    result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (u / view.paraboloid * 0.5f + 0.5f) * extent_ts;
+    float depth = length(p_ls) / view.metres_per_depth;
+    result.depth = depth - gn_depth_epsilon;
+    result.inside = max(abs(u.x), abs(u.y)) <= view.paraboloid;
+    result.plane_slope = vec2(0.0f);
+    result.plane_fall = vec2(0.0f);
+    result.plane_curve = vec2(0.0f);
+
+    vec3 n = vec3(dot(gn_row(view.cs_from_ws, 0), n_ws), dot(gn_row(view.cs_from_ws, 1), n_ws),
+                  dot(gn_row(view.cs_from_ws, 2), n_ws));
+    float height = dot(n, p_ls) / view.metres_per_depth;
+    if (abs(height) > 1.0e-4f * depth) {
+        vec3 m = n / height;
+        vec2 per_ts = 2.0f * view.paraboloid / extent_ts;
+        float divisor = (1.0f + dot(u, u)) / depth;
+        vec2 gradient = 2.0f * (vec2(m.x, m.y) - m.z * u);
+        result.plane_slope = (2.0f * u - depth * gradient) * per_ts / divisor;
+        result.plane_fall = -gradient * per_ts / divisor;
+        result.plane_curve = vec2(1.0f + depth * m.z, m.z) * (per_ts.x * per_ts.x / divisor);
+    }
+    return result;
+}
+
 // Map texels and bias are measured where the receiver is; then the receiver is moved and projected.
 GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias) {
     GnProjected result;
@@ -79,6 +123,9 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     float inverse_w = 1.0f / p_cs.w;
     result.du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
     result.dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
+    if (view.paraboloid > 0.0f) {
+        gn_paraboloid_gradients(view, vec3(p_cs), scale_ts, result.du_ws, result.dv_ws);
+    }
     result.texel_ts = 1.0f / view.resolution;
     result.texel_ws = result.texel_ts / min(length(result.du_ws), length(result.dv_ws));
 
@@ -92,14 +139,18 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     vec3 p_ws = receiver.p_ws + to_eye * towards_light + receiver.n_ws * along_normal;
 
     // Project.
+    result.layer = view.layer;
+    result.metres_per_depth = view.metres_per_depth;
+    result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     p_cs = gn_clip(view, p_ws);
+    if (view.paraboloid > 0.0f) {
+        return gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws);
+    }
+    result.plane_curve = vec2(0.0f);
     inverse_w = 1.0f / p_cs.w;
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
     result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
-    result.layer = view.layer;
-    result.metres_per_depth = view.metres_per_depth;
-    result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     result.inside = p_cs.w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
 
     // The receiver's plane: displacements e_u, e_v within it that move uv by one, to first order; the division in
@@ -126,8 +177,9 @@ GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
         return projected.depth;
     }
     vec2 d_ts = uv_ts - projected.uv_ts;
-    float divisor = max(1.0f - dot(projected.plane_fall, d_ts), gn_least_divisor);
-    return projected.depth + dot(projected.plane_slope, d_ts) / divisor;
+    vec2 curve = projected.plane_curve * dot(d_ts, d_ts);
+    float divisor = max(1.0f - dot(projected.plane_fall, d_ts) - curve.y, gn_least_divisor);
+    return projected.depth + (dot(projected.plane_slope, d_ts) + curve.x) / divisor;
 }
 
 // Whether four occluders at four points leave the receiver's plane lit: gn_depth_at <= occluder without the division.
@@ -136,9 +188,14 @@ GN_FN bvec4 gn_lit_at(GnProjected projected, vec4 u_ts, vec4 v_ts, vec4 occluder
     vec4 du_ts = u_ts - projected.uv_ts.x;
     vec4 dv_ts = v_ts - projected.uv_ts.y;
     float plane = bias.receiver_plane == 0 ? 0.0f : 1.0f;
-    vec4 divisor = max(1.0f - plane * (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts), gn_least_divisor);
+    vec4 divisor = 1.0f - plane * (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
     vec4 offset = plane * (projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts);
-    return lessThanEqual(offset, room * divisor);
+    if (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f) {
+        vec4 square = plane * (du_ts * du_ts + dv_ts * dv_ts);
+        divisor = divisor - projected.plane_curve.y * square;
+        offset = offset + projected.plane_curve.x * square;
+    }
+    return lessThanEqual(offset, room * max(divisor, gn_least_divisor));
 }
 
 // A length across the rays at the receiver, in texels of the map's u axis and v axis.

@@ -14,7 +14,7 @@ constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 in_position_ws;
 layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; } push;
-#ifdef GN_FRAGMENT
+#if defined(GN_FRAGMENT) && !defined(GN_PARABOLOID)
 layout(location = 0) out float out_depth;
 #endif
 #ifdef GN_MASKED
@@ -29,7 +29,10 @@ void main() {
     int view = push.view;
 #endif
     gl_Position = gn_clip(views[view], in_position_ws);
-#ifdef GN_FRAGMENT
+#ifdef GN_PARABOLOID
+    // The frame of the light in units of depth; w carries the map's extent to the next stage.
+    gl_Position = vec4(gl_Position.xyz / views[view].metres_per_depth, views[view].paraboloid);
+#elif defined(GN_FRAGMENT)
     out_depth = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
 #endif
 #ifdef GN_MASKED
@@ -38,17 +41,88 @@ void main() {
 }
 )";
 
+// A triangle's edges are curved on a paraboloid. Its bounding rectangle is drawn, and every texel's ray meets the triangle
+// itself: exact for triangles of any size, without subdividing them.
+constexpr const char* paraboloid_text = R"(
+#include "shadow/paraboloid.glsl"
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 4) out;
+layout(location = 0) out vec2 out_u;
+layout(location = 1) flat out vec3 out_a;
+layout(location = 2) flat out vec3 out_b;
+layout(location = 3) flat out vec3 out_c;
+#ifdef GN_MASKED
+layout(location = 1) in vec2 in_uv[];
+layout(location = 4) flat out vec2 out_uv_a;
+layout(location = 5) flat out vec2 out_uv_b;
+layout(location = 6) flat out vec2 out_uv_c;
+#endif
+void main() {
+    vec3 a = gl_in[0].gl_Position.xyz;
+    vec3 b = gl_in[1].gl_Position.xyz;
+    vec3 c = gl_in[2].gl_Position.xyz;
+    float extent = gl_in[0].gl_Position.w;
+    vec4 box = gn_paraboloid_bounds(a, b, c, extent);
+    float facing = dot(a, cross(b - a, c - a));
+    if (box.x >= box.z || box.y >= box.w || facing == 0.0) {
+        return;
+    }
+    // The rectangle winds as the triangle does, seen from the light.
+    for (int i = 0; i < 4; ++i) {
+        bool right = facing < 0.0 ? i >= 2 : (i & 1) != 0;
+        bool below = facing < 0.0 ? (i & 1) != 0 : i >= 2;
+        out_u = vec2(right ? box.z : box.x, below ? box.w : box.y);
+        out_a = a;
+        out_b = b;
+        out_c = c;
+#ifdef GN_MASKED
+        out_uv_a = in_uv[0];
+        out_uv_b = in_uv[1];
+        out_uv_c = in_uv[2];
+#endif
+        gl_Position = vec4(out_u / extent, 0.5, 1.0);
+        EmitVertex();
+    }
+    EndPrimitive();
+}
+)";
+
 constexpr const char* fragment_head = R"(
+#include "shadow/paraboloid.glsl"
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; } push;
-layout(location = 0) in float in_depth;
 #ifdef GN_MASKED
 layout(binding = 2) uniform sampler2D base_color_texture;
+#endif
+#ifdef GN_PARABOLOID
+layout(location = 0) in vec2 in_u;
+layout(location = 1) flat in vec3 in_a;
+layout(location = 2) flat in vec3 in_b;
+layout(location = 3) flat in vec3 in_c;
+#ifdef GN_MASKED
+layout(location = 4) flat in vec2 in_uv_a;
+layout(location = 5) flat in vec2 in_uv_b;
+layout(location = 6) flat in vec2 in_uv_c;
+#endif
+#else
+layout(location = 0) in float in_depth;
+#ifdef GN_MASKED
 layout(location = 1) in vec2 in_uv;
+#endif
 #endif
 )";
 
 constexpr const char* fragment_main = R"(
 void main() {
+#ifdef GN_PARABOLOID
+    vec4 hit = gn_paraboloid_hit(in_u, in_a, in_b, in_c);
+    if (hit.w < 0.0) {
+        discard;
+    }
+    float in_depth = hit.w;
+#ifdef GN_MASKED
+    vec2 in_uv = hit.x * in_uv_a + hit.y * in_uv_b + hit.z * in_uv_c;
+#endif
+#endif
 #ifdef GN_MASKED
     if (textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.alpha_cutoff) {
         discard;
@@ -66,7 +140,7 @@ struct Push {
 };
 
 struct Variant {
-    bool masked = false, write_depth = false, layered = false;
+    bool masked = false, write_depth = false, layered = false, paraboloid = false;
 };
 
 /// The pipeline that draws casters: a fragment stage only where depth is not affine, alpha is tested or the map asks.
@@ -77,9 +151,13 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant
     defines += variant.masked ? "#define GN_MASKED\n" : "";
     defines += variant.write_depth ? "#define GN_WRITE_DEPTH\n" : "";
     defines += variant.layered ? "#define GN_LAYERED\n" : "";
+    defines += variant.paraboloid ? "#define GN_PARABOLOID\n" : "";
 
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + vertex_text};
+    if (variant.paraboloid) {
+        desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + paraboloid_text};
+    }
     if (needs_fragment) {
         desc.fragment = ShaderSource{
             ShaderKind::fragment, pass.name + ".frag",
@@ -105,7 +183,8 @@ void set_viewport(Recorder& r, const GnLightView& view) {
 }  // namespace
 
 void CasterDraw::begin(Recorder& r, bool masked) const {
-    r.bind(caster_pipeline(pass, recipe, {masked, views.views[view].affine_depth == 0, views.layered}));
+    const GnLightView& first = views.views[view];
+    r.bind(caster_pipeline(pass, recipe, {masked, first.affine_depth == 0, views.layered, first.paraboloid > 0}));
     set_views(r, views);
     if (pass.bind_values) {
         pass.bind_values(r);

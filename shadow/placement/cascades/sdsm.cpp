@@ -266,6 +266,7 @@ void main() {
         view.layer = i;
         view.affine_depth = 1;
         view.grid = 0.0;
+        view.paraboloid = 0.0;
         views[i] = view;
 
         placement.values[1 + i / 4][i % 4] = r.ends[i + 1];
