@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Convolution shadow maps: a Fourier basis of depth in 8-bit textures, two terms a texture, the textures of a view in
+// successive layers.
+//
+// Based on: Annen, Mertens, Bekaert, Seidel, Kautz. Convolution Shadow Maps. EGSR 2007. [AMB+07]
+#include "shadow/map/convolution/convolution.glsl"
+
+#include "shadow/map/prefilter.h"
+
+namespace gn {
+namespace {
+
+/// Evaluates the basis functions of every texel of the depth map.
+TextureHandle add_basis(const FrameInput& input, TextureHandle depth, const GnConvolutionParams& params,
+                        std::uint32_t mips) {
+    TextureDesc desc = input.graph.desc(depth);
+    desc.name = "map";
+    desc.format = VK_FORMAT_R8G8B8A8_UNORM;
+    desc.layers *= static_cast<std::uint32_t>(glsl::gn_convolution_groups(params.terms));
+    desc.mips = mips;
+    desc.usage = 0;
+    const TextureHandle basis = input.graph.create(desc);
+    add_layer_passes(input, depth, basis,
+                     {.name = "basis",
+                      .text = R"(
+#include "shadow/map/convolution/convolution.glsl"
+layout(binding = 0, scalar) uniform MapParams { GnConvolutionParams map_params; };
+layout(location = 0) out vec4 out_basis;
+void main() {
+    int groups = gn_convolution_groups(map_params.terms);
+    float depth = texelFetch(source, ivec3(ivec2(gl_FragCoord.xy), push_layer / groups), 0).r;
+    out_basis = gn_convolution_encode(depth, push_layer % groups, map_params.span);
+}
+)",
+                      .bind_values = [params](Recorder& r) { r.set_value("MapParams", params); }});
+    return basis;
+}
+
+ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    const auto params = recipe.of<GnConvolutionParams>("convolution");
+    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
+
+    // Rasterize depth and expand it.
+    const TextureHandle depth = input.graph.create({.name = "map depth",
+                                                    .format = VK_FORMAT_D32_SFLOAT,
+                                                    .width = views.resolution,
+                                                    .height = views.resolution,
+                                                    .layers = views.layers});
+    add_caster_passes(input, recipe, views, {.depth = depth});
+    const TextureHandle basis = add_basis(input, depth, params, mips);
+
+    // Blur and mipmap.
+    ShadowMap map;
+    map.texture = add_blur(input, basis, static_cast<BlurKernel>(params.blur), params.radius, mips);
+    add_mips(input, map.texture);
+    map.sampler = trilinear();
+    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
+    return map;
+}
+
+Guard guard(const Recipe& recipe) {
+    const auto params = recipe.of<GnConvolutionParams>("convolution");
+    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+}
+
+ParamTable rows() {
+    return param_table<GnConvolutionParams>({
+        GN_PARAM(GnConvolutionParams, terms, integer, 1, 16, "",
+                 "Terms of the series: steeper steps and less bleeding, two bytes a texel each."),
+        GN_PARAM(GnConvolutionParams, attenuation, real, 0, 8, "",
+                 "Damps the high terms: less ringing, flatter steps."),
+        GN_PARAM(GnConvolutionParams, offset, real, 0, 2, "",
+                 "Moves the step into the shadow, in half widths of it: less acne, more light at contacts."),
+        GN_PARAM(GnConvolutionParams, scale, real, 1, 8, "",
+                 "Stretches the step about its middle and clamps it: less acne and bleeding, harder penumbrae."),
+        GN_PARAM(GnConvolutionParams, span, real, 0.1, 1, "",
+                 "Share of the half period that depth takes: finer steps, but at 1 the far end wraps into light."),
+        GN_CHOICE(GnConvolutionParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
+        GN_PARAM(GnConvolutionParams, radius, integer, 0, 64, "texels",
+                 "Reach of the blur: softer edges, cost grows in proportion."),
+        GN_PARAM(GnConvolutionParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
+        GN_PARAM(GnConvolutionParams, anisotropy, integer, 1, 16, "",
+                 "Fetches along stretched footprints: sharper at grazing views, slow in software."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& map_convolution() {
+    static const Part part = [] {
+        Part p;
+        p.id = "convolution";
+        p.stage = Stage::map;
+        p.title = "Convolution shadow maps";
+        p.citation = "AMB+07";
+        p.gives = "filterable";
+        p.params = rows();
+        p.params_type = "GnConvolutionParams";
+        p.glsl = "shadow/map/convolution/convolution.glsl";
+        p.add_map = add_convolution;
+        p.guard = guard;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Parameters of convolution shadow maps.
+#ifndef GN_SHADOW_MAP_CONVOLUTION_H
+#define GN_SHADOW_MAP_CONVOLUTION_H
+
+#include "base/shared.h"
+
+struct GnConvolutionParams {
+    int terms GN_DEFAULT(16);
+    float attenuation GN_DEFAULT(0.5f);
+    float offset GN_DEFAULT(0.8f);
+    float scale GN_DEFAULT(1.1f);
+    float span GN_DEFAULT(0.9f);
+    int blur GN_DEFAULT(1);
+    int radius GN_DEFAULT(2);
+    int mipmaps GN_DEFAULT(1);
+    int anisotropy GN_DEFAULT(1);
+};
+
+#endif

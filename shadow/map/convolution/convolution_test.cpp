@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/map/convolution/convolution.glsl"
+
+#include "tests/rig.h"
+
+#include <array>
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+constexpr std::array<int, 5> term_counts{1, 2, 4, 8, 16};
+
+/// V of a kernel of depths, the basis rounded to 8 bits as the map stores it.
+float visible(const std::vector<float>& depths, float receiver, const GnConvolutionParams& params) {
+    const float at = gn_convolution_receiver(receiver, params);
+    float sum = 0;
+    for (int group = 0; group < gn_convolution_groups(params.terms); ++group) {
+        vec4 mean(0);
+        for (const float depth : depths) {
+            const vec4 stored = gn_convolution_encode(depth, group, params.span);
+            mean += round(stored * 255.0F) / 255.0F / static_cast<float>(depths.size());
+        }
+        sum += gn_convolution_group(mean, at, group, params);
+    }
+    return gn_convolution_step(sum, params.scale);
+}
+
+TEST(Convolution, StoresNothingOutsideItsFormat) {
+    for (float depth = 0; depth <= 1; depth += 0.01F) {
+        const vec4 stored = gn_convolution_encode(depth, 7, 1);
+        for (int k = 0; k < 4; ++k) {
+            EXPECT_TRUE(stored[k] >= 0 && stored[k] <= 1) << stored[k];
+        }
+    }
+}
+
+TEST(Convolution, IsOneHalfOnTheStepWithoutOffset) {
+    for (const int terms : term_counts) {
+        const GnConvolutionParams params{.terms = terms, .offset = 0, .scale = 1};
+        EXPECT_NEAR(visible({0.5F}, 0.5F, params), 0.5F, 0.01) << terms << " terms";
+    }
+}
+
+TEST(Convolution, ErrorFallsWithEveryDoublingOfTheTerms) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    double previous = 1;
+    for (const int terms : term_counts) {
+        const GnConvolutionParams params{.terms = terms, .attenuation = 0, .offset = 0, .scale = 1};
+        double sum = 0;
+        random.seed(6);
+        for (int i = 0; i < 2000; ++i) {
+            std::vector<float> depths(9);
+            float lit = 0;
+            const float receiver = uniform(random);
+            for (float& depth : depths) {
+                depth = uniform(random);
+                lit += receiver <= depth ? 1.0F / 9 : 0;
+            }
+            const double error = visible(depths, receiver, params) - lit;
+            sum += error * error / 2000;
+        }
+        EXPECT_LT(std::sqrt(sum), 0.85 * previous) << terms << " terms";
+        previous = std::sqrt(sum);
+    }
+}
+
+TEST(Convolution, FarEndDoesNotWrapIntoLight) {
+    // A caster at the near plane and a receiver at the far one are a half period apart where depth takes all of it.
+    GnConvolutionParams params{.offset = 0, .scale = 1, .span = 1};
+    EXPECT_GT(visible({0.0F}, 1.0F, params), 0.4F);
+    params.span = GnConvolutionParams{}.span;
+    EXPECT_LT(visible({0.0F}, 1.0F, params), 0.05F);
+}
+
+TEST(ConvolutionRendered, TendsToPercentageCloserFilteringWithMoreTerms) {
+    const auto pcf = test::compare("overlap", "pcf,resolution=512,pcf.size=6", {.samples = 1});
+    double previous = 1;
+    for (const int terms : term_counts) {
+        const auto c = test::compare(
+            "overlap",
+            "convolution,resolution=512,convolution.mipmaps=false,convolution.terms=" + std::to_string(terms),
+            {.samples = 1});
+        const Errors errors =
+            visibility_errors(c.visibility().values, pcf.visibility().values, c.truth.counted, 192, 192);
+        EXPECT_LT(*errors.rmse, previous) << terms << " terms";
+        previous = *errors.rmse;
+    }
+    EXPECT_LT(previous, 0.1);
+}
+
+TEST(ConvolutionRendered, StaysInRangeAndFreeOfAcne) {
+    for (const char* options : {"", ",convolution.terms=5", ",convolution.blur=gaussian,convolution.radius=5"}) {
+        const auto c = test::compare("tilted:angle=75", std::string("convolution,resolution=512") + options,
+                                     {.width = 96, .height = 96, .samples = 1});
+        EXPECT_LE(*c.errors.acne, 0.05) << options;
+        for (const float v : c.visibility().values) {
+            ASSERT_TRUE(v >= 0 && v <= 1) << v << options;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Exponential shadow maps: exp(c z) in one 32-bit float, and the unblurred map beside it for the fallback.
+//
+// Based on: Annen, Mertens, Seidel, Flerackers, Kautz. Exponential Shadow Maps. GI 2008. [AMS+08]
+#include "shadow/map/esm/esm.glsl"
+
+#include "shadow/map/prefilter.h"
+
+namespace gn {
+namespace {
+
+ShadowMap add_esm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    const auto params = recipe.of<GnEsmParams>("esm");
+    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
+
+    // Rasterize exponentials; a texel without caster stores that of the far plane.
+    MomentMap moments;
+    moments.format = VK_FORMAT_R32_SFLOAT;
+    moments.samples = params.samples;
+    moments.clear = {.color = vec4(glsl::gn_esm_encode(1, params.exponent), 0, 0, 0)};
+    moments.mips = mips;
+    moments.fragment.includes = R"(
+#include "shadow/map/esm/esm.glsl"
+layout(binding = 3, scalar) uniform MapParams { GnEsmParams map_params; };
+layout(location = 0) out vec4 out_moments;
+)";
+    moments.fragment.body = "out_moments = vec4(gn_esm_encode(depth, map_params.exponent), 0, 0, 0);";
+    moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    const TextureHandle raw = add_moments(input, recipe, views, moments);
+
+    // Blur and mipmap; the fallback reads what was drawn.
+    ShadowMap map;
+    map.texture = add_blur(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips);
+    map.extra = params.fallback != 0 && map.texture != raw ? raw : TextureHandle{};
+    add_mips(input, map.texture);
+    map.sampler = trilinear();
+    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
+    return map;
+}
+
+Guard guard(const Recipe& recipe) {
+    const auto params = recipe.of<GnEsmParams>("esm");
+    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+}
+
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    const int samples = recipe.of<GnEsmParams>("esm").samples;
+    return samples == 1 || samples == 4 ? ""
+                                        : fmt::format("esm.samples = {} is not offered; valid are 1 and 4", samples);
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& map_esm() {
+    static const Part part = [] {
+        Part p;
+        p.id = "esm";
+        p.stage = Stage::map;
+        p.title = "Exponential shadow maps";
+        p.citation = "AMS+08";
+        p.gives = "filterable";
+        p.params = param_table<GnEsmParams>({
+            GN_PARAM(GnEsmParams, exponent, real, 1, 85, "",
+                     "Steepness of exp(c z), z in [0,1]: less light just behind casters, more failing receivers."),
+            GN_PARAM(GnEsmParams, fallback, boolean, 0, 1, "",
+                     "Compares texel by texel where the exponential fails: right there, and slow there."),
+            GN_PARAM(GnEsmParams, epsilon, real, 0, 1, "",
+                     "How far the filtered value may exceed one before the fallback is taken: faster, less exact."),
+            GN_PARAM(GnEsmParams, samples, integer, 1, 4, "",
+                     "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
+            GN_CHOICE(GnEsmParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
+            GN_PARAM(GnEsmParams, radius, integer, 0, 64, "texels",
+                     "Reach of the blur: softer edges, more receivers for the fallback."),
+            GN_PARAM(GnEsmParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
+            GN_PARAM(GnEsmParams, anisotropy, integer, 1, 16, "",
+                     "Fetches along stretched footprints: sharper at grazing views, slow in software."),
+        });
+        p.params_type = "GnEsmParams";
+        p.glsl = "shadow/map/esm/esm.glsl";
+        p.add_map = add_esm;
+        p.guard = guard;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

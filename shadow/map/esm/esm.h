@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Parameters of exponential shadow maps.
+#ifndef GN_SHADOW_MAP_ESM_H
+#define GN_SHADOW_MAP_ESM_H
+
+#include "base/shared.h"
+
+struct GnEsmParams {
+    float exponent GN_DEFAULT(80.0f);
+    int fallback GN_DEFAULT(1);
+    float epsilon GN_DEFAULT(0.02f);
+    int samples GN_DEFAULT(1);
+    int blur GN_DEFAULT(1);
+    int radius GN_DEFAULT(2);
+    int mipmaps GN_DEFAULT(1);
+    int anisotropy GN_DEFAULT(1);
+};
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/map/esm/esm.glsl"
+
+#include "scenes/analytic.h"
+#include "tests/rig.h"
+
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+TEST(Esm, NoAcceptedExponentOverflows) {
+    // Four samples are added before they are divided.
+    const auto greatest = static_cast<float>(find_part(Stage::map, "esm").params.find("exponent")->max);
+    EXPECT_TRUE(std::isfinite(4 * gn_esm_encode(1, greatest)));
+    EXPECT_GT(gn_esm_product(gn_esm_encode(1, greatest), 1, greatest), 0.99F);
+}
+
+TEST(Esm, TendsToThePercentageWhereNothingLiesBeyondTheReceiver) {
+    // Casters at least `gap` before the receiver add at most exp(-c gap): [EASW09] eq. 4.7.
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < 500; ++i) {
+        const float receiver = 0.5F + 0.5F * uniform(random);
+        const float gap = 0.1F;
+        float mean = 0;
+        float lit = 0;
+        for (int k = 0; k < 16; ++k) {
+            const bool open = uniform(random) < 0.5F;
+            mean += gn_esm_encode(open ? receiver : (receiver - gap) * uniform(random), 80) / 16;
+            lit += open ? 1.0F / 16 : 0;
+        }
+        const float product = gn_esm_product(mean, receiver, 80);
+        EXPECT_GE(product, lit - 1e-4);
+        EXPECT_LE(product, lit + std::exp(-80 * gap) + 1e-4);
+        EXPECT_FALSE(gn_esm_fails(product, 1e-3F));
+    }
+}
+
+TEST(Esm, NoticesDepthsFarBeyondTheReceiver) {
+    // A tenth of the kernel sees 0.1 deeper: exp(8) / 10 is far above one, though 9 of 10 texels may shadow.
+    const float mean = 0.9F * gn_esm_encode(0.3F, 80) + 0.1F * gn_esm_encode(0.6F, 80);
+    EXPECT_TRUE(gn_esm_fails(gn_esm_product(mean, 0.5F, 80), 0.02F));
+}
+
+TEST(Esm, CellsOfTheFallbackCoverItsBoxOnce) {
+    for (const float start : {0.0F, 0.3F, 7.9F}) {
+        for (const float step : {1.0F, 3.0F}) {
+            float sum = 0;
+            for (float cell = std::floor(start / step) * step; cell < start + 5; cell += step) {
+                sum += gn_esm_cover(cell, step, start, 5);
+            }
+            EXPECT_NEAR(sum, 5, 1e-5);
+        }
+    }
+}
+
+TEST(EsmRendered, FallbackIsCloserToPercentageCloserFilteringThanWithout) {
+    // The stack's edges hold depths beyond A and B under the kernel.
+    const std::string map = ",resolution=512,esm.radius=4";
+    const auto pcf = test::compare("stack", "pcf,resolution=512,pcf.size=9");
+    const auto rmse_to_pcf = [&](const std::string& options) {
+        const auto c = test::compare("stack", "esm" + map + options);
+        return *visibility_errors(c.visibility().values, pcf.visibility().values, c.truth.counted, 192, 192).rmse;
+    };
+    const double with = rmse_to_pcf("");
+    const double without = rmse_to_pcf(",esm.fallback=false");
+    EXPECT_LT(with, 0.9 * without);
+}
+
+TEST(EsmRendered, StaysInRangeAndFreeOfAcne) {
+    for (const char* options : {"", ",esm.samples=4", ",esm.blur=none", ",esm.exponent=85,esm.blur=gaussian"}) {
+        const auto c = test::compare("tilted:angle=75", std::string("esm,resolution=512") + options,
+                                     {.width = 96, .height = 96, .samples = 1});
+        EXPECT_LE(*c.errors.acne, 0.02) << options;
+        for (const float v : c.visibility().values) {
+            ASSERT_TRUE(v >= 0 && v <= 1) << v << options;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Exponential variance shadow maps: moments of warped depth in two or four floats.
+//
+// Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
+// Stands on: shadow/map/vsm (Chebyshev's bound and the reduction of bleeding)
+#include "shadow/map/evsm/evsm.glsl"
+
+#include "shadow/map/prefilter.h"
+
+#include <array>
+
+namespace gn {
+namespace {
+
+VkFormat format_of(const GnEvsmParams& params) {
+    constexpr std::array<std::array<VkFormat, 2>, 2> formats{
+        {{VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R32G32_SFLOAT},
+         {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}}};
+    return formats.at(static_cast<std::size_t>(params.components)).at(static_cast<std::size_t>(params.format));
+}
+
+ShadowMap add_evsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    const auto params = recipe.of<GnEvsmParams>("evsm");
+    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
+
+    // Rasterize warped moments; a texel without caster stores those of the far plane.
+    MomentMap moments;
+    moments.format = format_of(params);
+    moments.samples = params.samples;
+    moments.clear = {.color = glsl::gn_evsm_encode(1, vec2(0), params)};
+    moments.mips = mips;
+    moments.fragment.includes = R"(
+#include "shadow/map/evsm/evsm.glsl"
+layout(binding = 3, scalar) uniform MapParams { GnEvsmParams map_params; };
+layout(location = 0) out vec4 out_moments;
+)";
+    moments.fragment.body = R"(
+    vec2 slope = map_params.slope_moment != 0 ? vec2(dFdx(in_depth), dFdy(in_depth)) : vec2(0.0);
+    out_moments = gn_evsm_encode(depth, slope, map_params);
+)";
+    moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    const TextureHandle raw = add_moments(input, recipe, views, moments);
+
+    // Blur and mipmap.
+    ShadowMap map;
+    map.texture = add_blur(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips);
+    add_mips(input, map.texture);
+    map.sampler = trilinear();
+    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
+    return map;
+}
+
+Guard guard(const Recipe& recipe) {
+    const auto params = recipe.of<GnEvsmParams>("evsm");
+    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+}
+
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    const int samples = recipe.of<GnEvsmParams>("evsm").samples;
+    return samples == 1 || samples == 4 ? ""
+                                        : fmt::format("evsm.samples = {} is not offered; valid are 1 and 4", samples);
+}
+
+ParamTable rows() {
+    return param_table<GnEvsmParams>({
+        GN_CHOICE(GnEvsmParams, components,
+                  "2 keeps the moments of exp(c z) only, 4 also those of -exp(-c z): less bleeding, twice the memory.",
+                  "2", "4"),
+        GN_CHOICE(GnEvsmParams, format, "Floats of 16 bits limit both exponents to 5, those of 32 bits to 42.",
+                  "float16", "float32"),
+        GN_PARAM(GnEvsmParams, exponent, real, 1, 42, "",
+                 "Steepness of exp(c z), z in [-1,1]: less bleeding, harder rims where receivers are uneven."),
+        GN_PARAM(GnEvsmParams, exponent_negative, real, 1, 42, "",
+                 "Steepness of -exp(-c z): fewer of those hard rims, more bleeding behind the first caster."),
+        GN_PARAM(GnEvsmParams, samples, integer, 1, 4, "",
+                 "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
+        GN_CHOICE(GnEvsmParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
+        GN_PARAM(GnEvsmParams, radius, integer, 0, 64, "texels",
+                 "Reach of the blur: softer edges, cost grows in proportion."),
+        GN_PARAM(GnEvsmParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
+        GN_PARAM(GnEvsmParams, anisotropy, integer, 1, 16, "",
+                 "Fetches along stretched footprints: sharper at grazing views, slow in software."),
+        GN_PARAM(GnEvsmParams, slope_moment, boolean, 0, 1, "",
+                 "Adds the slope of the surface to the second moments: no acne on slanted surfaces."),
+        GN_PARAM(GnEvsmParams, min_deviation, real, 0, 1, "m",
+                 "Least standard deviation of depth assumed: less acne, softer contacts."),
+        GN_PARAM(GnEvsmParams, bleeding, real, 0, 0.99, "",
+                 "Share of the bound cut off: less bleeding, darker and harder penumbrae."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& map_evsm() {
+    static const Part part = [] {
+        Part p;
+        p.id = "evsm";
+        p.stage = Stage::map;
+        p.title = "Exponential variance shadow maps";
+        p.citation = "Lau08";
+        p.gives = "filterable";
+        p.params = rows();
+        p.params_type = "GnEvsmParams";
+        p.glsl = "shadow/map/evsm/evsm.glsl";
+        p.add_map = add_evsm;
+        p.guard = guard;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Exponential variance shadow maps: two moments of depth after each of two monotonic warps.
+// Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
+// Departs from it: exponents are limited by the format, so that no moment overflows.
+#ifndef GN_SHADOW_MAP_EVSM_GLSL
+#define GN_SHADOW_MAP_EVSM_GLSL
+
+#include "shadow/map/evsm/evsm.h"
+#include "shadow/map/vsm/vsm.glsl"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// The largest exponent of a format: the second moment is at most 2 exp(2 c), which must stay below 65504 or 3.4e38.
+GN_FN float gn_evsm_limit(int format) { return format == GN_EVSM_FLOAT16 ? 5.0f : 42.0f; }
+
+// Share of a second moment that may be rounding: four units of the format's significand.
+GN_FN float gn_evsm_rounding(int format) { return format == GN_EVSM_FLOAT16 ? 1.0f / 512.0f : 1.0f / 4194304.0f; }
+
+// [Lau08] 4.2: depth is stretched to [-1,1] first, so that both ends of the exponential's range are used.
+GN_FN float gn_evsm_positive(float depth, float c) { return exp(c * (2.0f * depth - 1.0f)); }
+GN_FN float gn_evsm_negative(float depth, float c) { return -exp(-c * (2.0f * depth - 1.0f)); }
+
+// Moments of a warped depth whose plane changes by `slope` over a texel: the chain rule warps the slope too. The plane's
+// share is at most the moment itself, which keeps the sum representable.
+GN_FN vec2 gn_evsm_moments(float warped, float c, vec2 slope) {
+    float square = warped * warped;
+    float spread = c * c * dot(slope, slope);
+    return vec2(warped, square + square * min(spread, 1.0f));
+}
+
+// What a texel stores: positive moments, then negative ones.
+GN_FN vec4 gn_evsm_encode(float depth, vec2 slope, GnEvsmParams params) {
+    float c = min(params.exponent, gn_evsm_limit(params.format));
+    float c_negative = min(params.exponent_negative, gn_evsm_limit(params.format));
+    vec2 positive = gn_evsm_moments(gn_evsm_positive(depth, c), c, slope);
+    vec2 negative = gn_evsm_moments(gn_evsm_negative(depth, c_negative), c_negative, slope);
+    return vec4(positive.x, positive.y, negative.x, negative.y);
+}
+
+// Chebyshev's bound in one warped space; a deviation of depth becomes 2 c |warped| times as large there.
+GN_FN float gn_evsm_bound(vec2 moments, float warped, float c, float deviation, int format) {
+    float least = 2.0f * c * warped * deviation;
+    return gn_vsm_chebyshev(moments, warped, max(least * least, gn_evsm_rounding(format) * moments.y));
+}
+
+// [Lau08] 4.2: both bounds hold, so the smaller does. `deviation` is the least one assumed, in depth.
+GN_FN float gn_evsm_visible(vec4 moments, float depth, float deviation, GnEvsmParams params) {
+    float d = clamp(depth, 0.0f, 1.0f);
+    float c = min(params.exponent, gn_evsm_limit(params.format));
+    float bound = gn_evsm_bound(vec2(moments.x, moments.y), gn_evsm_positive(d, c), c, deviation, params.format);
+    if (params.components == GN_EVSM_FOUR) {
+        c = min(params.exponent_negative, gn_evsm_limit(params.format));
+        float negative = gn_evsm_bound(vec2(moments.z, moments.w), gn_evsm_negative(d, c), c, deviation, params.format);
+        bound = min(bound, negative);
+    }
+    return gn_vsm_reduce_bleeding(bound, params.bleeding);
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+float gn_evsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
+                         GnEvsmParams params) {
+    vec4 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
+    return gn_evsm_visible(moments, projected.depth, params.min_deviation / projected.metres_per_depth, params);
+}
+
+#endif
+#endif

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/map/evsm/evsm.glsl"
+
+#include "scenes/analytic.h"
+#include "tests/rig.h"
+
+#include <algorithm>
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+GnEvsmParams exact(int components = GN_EVSM_FOUR) {
+    return {.components = components, .min_deviation = 0, .bleeding = 0};
+}
+
+struct Kernel {
+    std::vector<float> depths;
+    [[nodiscard]] vec4 warped(const GnEvsmParams& params) const {
+        vec4 mean(0);
+        for (const float depth : depths) {
+            mean += gn_evsm_encode(depth, vec2(0), params) / static_cast<float>(depths.size());
+        }
+        return mean;
+    }
+    [[nodiscard]] vec2 plain() const {
+        vec2 mean(0);
+        for (const float depth : depths) {
+            mean += gn_vsm_moments(depth, 0, 0) / static_cast<float>(depths.size());
+        }
+        return mean;
+    }
+    [[nodiscard]] float lit(float receiver) const {
+        const auto beyond = std::count_if(depths.begin(), depths.end(), [&](float d) { return d >= receiver; });
+        return static_cast<float>(beyond) / static_cast<float>(depths.size());
+    }
+};
+
+/// Nine depths in [low, high].
+Kernel random_kernel(std::mt19937& random, float low, float high) {
+    std::uniform_real_distribution<float> uniform(low, high);
+    Kernel kernel;
+    for (int i = 0; i < 9; ++i) {
+        kernel.depths.push_back(uniform(random));
+    }
+    return kernel;
+}
+
+TEST(Evsm, NoAcceptedExponentOverflows) {
+    // Every exponent that a row accepts, at both ends of depth, on the steepest plane: finite and below the format's
+    // greatest number even before the mean of four samples is divided.
+    const ParamTable& table = find_part(Stage::map, "evsm").params;
+    const auto greatest = static_cast<float>(table.find("exponent")->max);
+    for (const int format : {GN_EVSM_FLOAT16, GN_EVSM_FLOAT32}) {
+        const float limit = format == GN_EVSM_FLOAT16 ? 65504.0F : std::numeric_limits<float>::max() / 4;
+        for (const float c : {1.0F, 5.0F, 20.0F, greatest}) {
+            for (const float depth : {0.0F, 0.5F, 1.0F}) {
+                const vec4 stored =
+                    gn_evsm_encode(depth, vec2(1, 1), {.format = format, .exponent = c, .exponent_negative = c});
+                for (int i = 0; i < 4; ++i) {
+                    EXPECT_LT(std::abs(stored[i]), limit) << "c " << c << " depth " << depth << " component " << i;
+                }
+            }
+        }
+    }
+}
+
+TEST(Evsm, BoundIsExactOnParallelPlanes) {
+    for (int lit = 1; lit < 20; ++lit) {
+        Kernel kernel;
+        for (int i = 0; i < 20; ++i) {
+            kernel.depths.push_back(i < lit ? 0.6F : 0.4F);
+        }
+        EXPECT_NEAR(gn_evsm_visible(kernel.warped(exact()), 0.6F, 0, exact()), kernel.lit(0.6F), 1e-4);
+    }
+}
+
+TEST(Evsm, IsAtMostTheVarianceBoundAndAtLeastPercentageCloserFiltering) {
+    // Where nothing in the kernel lies beyond the receiver, a convex warp can only lower Chebyshev's bound: with t the
+    // zero of the optimal square of the plain bound, (f(x) - f(t)) / (f(d) - f(t)) <= (x - t) / (d - t) for x <= d.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(0.05F, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const float receiver = uniform(random);
+        const Kernel kernel = random_kernel(random, 0, receiver);
+        GnEvsmParams params = exact(i % 2);
+        params.exponent = 1 + 41 * uniform(random);
+        const float evsm = gn_evsm_visible(kernel.warped(params), receiver, 0, params);
+        EXPECT_LE(evsm, gn_vsm_chebyshev(kernel.plain(), receiver, 0) + 2e-4) << "case " << i;
+        EXPECT_GE(evsm, kernel.lit(receiver) - 1e-4) << "case " << i;
+    }
+}
+
+TEST(Evsm, MayExceedTheVarianceBoundWhereTheKernelReachesBeyondTheReceiver) {
+    // The limit of that law: a little of a far background drowns the positive warp, a little of a near caster the
+    // negative one, while plain depth weighs both fairly. It still never falls below the truth.
+    Kernel kernel;
+    kernel.depths.assign(100, 0.45F);
+    std::fill_n(kernel.depths.begin(), 2, 0.1F);
+    std::fill_n(kernel.depths.begin() + 2, 5, 0.9F);
+    const float evsm = gn_evsm_visible(kernel.warped(exact()), 0.5F, 0, exact());
+    EXPECT_GT(evsm, gn_vsm_chebyshev(kernel.plain(), 0.5F, 0) + 0.02F);
+    EXPECT_GE(evsm, kernel.lit(0.5F));
+}
+
+TEST(Evsm, FourComponentsAreNeverBrighterThanTwo) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < 500; ++i) {
+        const Kernel kernel = random_kernel(random, 0, 1);
+        const float receiver = uniform(random);
+        const vec4 moments = kernel.warped(exact());
+        EXPECT_LE(gn_evsm_visible(moments, receiver, 0, exact(GN_EVSM_FOUR)),
+                  gn_evsm_visible(moments, receiver, 0, exact(GN_EVSM_TWO)));
+    }
+}
+
+TEST(Evsm, BleedingOfThreePlanesFallsWithTheExponent) {
+    using namespace scenes::stack_scene;
+    const auto depth = [](double y) { return static_cast<float>((10 + height_a - y) / 20); };
+    const Kernel kernel{{depth(height_a), depth(height_b)}};
+    float previous = static_cast<float>(bleeding(dy));
+    for (const float c : {2.0F, 5.0F, 10.0F, 20.0F, 40.0F}) {
+        GnEvsmParams params = exact(GN_EVSM_TWO);
+        params.exponent = c;
+        const float leak = gn_evsm_visible(kernel.warped(params), depth(height_c), 0, params);
+        EXPECT_LT(leak, previous) << "c " << c;
+        previous = leak;
+    }
+    EXPECT_LT(previous, 1e-3);
+}
+
+/// Mean visibility on the floor of the stack well inside the shadow of A and B.
+double bleeding_under_b(const test::Comparison& c) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+        const vec4 p_ws = c.frame.samples.position_ws[i];
+        if (p_ws.w > 0.5F && p_ws.y < 1e-3F && std::abs(p_ws.x) < 0.8F && std::abs(p_ws.z) < 0.8F) {
+            sum += c.visibility().values[i];
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 20);
+    return sum / count;
+}
+
+TEST(EvsmRendered, IsNowhereBrighterThanTheVarianceMapOnTheFloorOfTheStack) {
+    // The floor is the farthest surface: without a bias no kernel on it reaches beyond it.
+    const std::string rest = ".bleeding=0,resolution=512,bias.constant=0,bias.normal=0";
+    const auto vsm = test::compare("stack", "vsm,vsm.min_deviation=0,vsm" + rest);
+    for (const char* recipe : {"evsm2", "evsm4"}) {
+        const auto evsm = test::compare("stack", std::string(recipe) + ",evsm.min_deviation=0,evsm" + rest);
+        EXPECT_LT(bleeding_under_b(evsm), 0.1 * bleeding_under_b(vsm)) << recipe;
+        for (std::size_t i = 0; i < vsm.truth.counted.size(); ++i) {
+            const vec4 p_ws = vsm.frame.samples.position_ws[i];
+            if (p_ws.w > 0.5F && p_ws.y < 1e-3F) {
+                ASSERT_LE(evsm.visibility().values[i], vsm.visibility().values[i] + 2e-3)
+                    << recipe << " at " << p_ws.x << ", " << p_ws.z;
+            }
+        }
+    }
+}
+
+TEST(EvsmRendered, StaysInRangeAndFreeOfAcne) {
+    for (const char* options : {"", ",evsm.format=float16", ",evsm.samples=4,evsm.blur=gaussian,evsm.radius=5"}) {
+        const auto c = test::compare("tilted:angle=75", std::string("evsm4,resolution=512") + options,
+                                     {.width = 96, .height = 96, .samples = 1});
+        EXPECT_LE(*c.errors.acne, 0.01) << options;
+        for (const float v : c.visibility().values) {
+            ASSERT_TRUE(v >= 0 && v <= 1) << v << options;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// A summed-area table in two scans, along rows and then along columns.
+//
+// Based on: Lauritzen. Summed-Area Variance Shadow Maps. GPU Gems 3, 2007. [Lau07]
+// Departs from it: compute shaders scan a line in one pass, one invocation a line or one workgroup a line.
+#include "shadow/map/sat_vsm/sat_scan.h"
+
+#include "shadow/map/sat_vsm/sat_vsm.glsl"
+
+namespace gn {
+namespace {
+
+constexpr const char* head = R"(
+#include "shadow/map/sat_vsm/sat_vsm.glsl"
+layout(push_constant) uniform Push { float levels; };
+#ifdef GN_INTEGER
+#define GN_SUM uvec2
+#else
+#define GN_SUM vec2
+#endif
+#ifdef GN_ROWS
+layout(binding = 0) uniform sampler2DArray source;
+GN_SUM load(int line, int i, int layer) {
+    vec2 moments = texelFetch(source, ivec3(i, line, layer), 0).xy;
+#ifdef GN_INTEGER
+    return gn_sat_quantize(moments, levels);
+#else
+    return moments - gn_sat_centre();
+#endif
+}
+#ifdef GN_INTEGER
+layout(binding = 1, rg32ui) uniform writeonly uimage2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), uvec4(sum, 0u, 0u)); }
+#else
+layout(binding = 1, rg32f) uniform writeonly image2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), vec4(sum, 0.0, 0.0)); }
+#endif
+#else
+#ifdef GN_INTEGER
+layout(binding = 0) uniform usampler2DArray source;
+layout(binding = 1, rgba16) uniform writeonly image2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), gn_sat_pack(sum)); }
+#else
+layout(binding = 0) uniform sampler2DArray source;
+layout(binding = 1, rg32f) uniform writeonly image2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), vec4(sum, 0.0, 0.0)); }
+#endif
+GN_SUM load(int line, int i, int layer) { return texelFetch(source, ivec3(line, i, layer), 0).xy; }
+#endif
+)";
+
+// One invocation walks a line: least work, and what a CPU does best.
+constexpr const char* serial = R"(
+layout(local_size_x = 64) in;
+void main() {
+    int line = int(gl_GlobalInvocationID.x);
+    int layer = int(gl_GlobalInvocationID.y);
+    int count = imageSize(target).x;
+    if (line >= count) {
+        return;
+    }
+    GN_SUM sum = GN_SUM(0);
+    for (int i = 0; i < count; ++i) {
+        sum += load(line, i, layer);
+        store(line, i, layer, sum);
+    }
+}
+)";
+
+// One workgroup walks a line in tiles, each scanned in shared memory by doubling strides.
+constexpr const char* shared_memory = R"(
+layout(local_size_x = 256) in;
+shared GN_SUM tile[256];
+void main() {
+    int line = int(gl_WorkGroupID.x);
+    int layer = int(gl_WorkGroupID.y);
+    int count = imageSize(target).x;
+    int lane = int(gl_LocalInvocationID.x);
+    GN_SUM carry = GN_SUM(0);
+    for (int start = 0; start < count; start += 256) {
+        int i = start + lane;
+        GN_SUM sum = i < count ? load(line, i, layer) : GN_SUM(0);
+        tile[lane] = sum;
+        barrier();
+        for (int stride = 1; stride < 256; stride *= 2) {
+            GN_SUM before = lane >= stride ? tile[lane - stride] : GN_SUM(0);
+            barrier();
+            sum += before;
+            tile[lane] = sum;
+            barrier();
+        }
+        if (i < count) {
+            store(line, i, layer, carry + sum);
+        }
+        carry += tile[255];
+        barrier();
+    }
+}
+)";
+
+struct Scan {
+    const char* name;
+    bool rows, integer, in_shared_memory;
+    float levels;
+};
+
+void add_scan(FrameGraph& graph, TextureHandle source, TextureHandle target, const Scan& scan) {
+    std::string text;
+    text += scan.rows ? "#define GN_ROWS\n" : "";
+    text += scan.integer ? "#define GN_INTEGER\n" : "";
+    text += head;
+    text += scan.in_shared_memory ? shared_memory : serial;
+    graph.add_pass(
+        scan.name,
+        [&](PassBuilder& pass) {
+            pass.sample(source, one_mip(0));
+            pass.storage_write(target);
+        },
+        [source, target, scan, desc = ComputeDesc{{ShaderKind::compute, scan.name, text}, {}}](Recorder& r) {
+            const TextureDesc& size = r.desc(target);
+            r.bind(desc);
+            r.set("source", source, nearest(), one_mip(0));
+            r.set_storage("target", target);
+            r.push_value(scan.levels);
+            r.dispatch(scan.in_shared_memory ? size.width : (size.width + 63) / 64, size.layers);
+        });
+}
+
+}  // namespace
+
+TextureHandle add_sat(FrameGraph& graph, TextureHandle moments, const SatTable& options) {
+    const bool integer = options.table == GN_SAT_UINT32;
+    const bool in_shared_memory =
+        options.scan == GN_SAT_SCAN_SHARED || (options.scan == GN_SAT_SCAN_AUTO && !graph.device().info().cpu);
+    const float levels = glsl::gn_sat_levels(options.max_box);
+    GN_CHECK_EQ(graph.desc(moments).width, graph.desc(moments).height);
+
+    TextureDesc desc = graph.desc(moments);
+    desc.mips = 1;
+    desc.usage = 0;
+    desc.name = "map summed along rows";
+    desc.format = integer ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32_SFLOAT;
+    const TextureHandle rows = graph.create(desc);
+    desc.name = "map summed";
+    desc.format = integer ? VK_FORMAT_R16G16B16A16_UNORM : VK_FORMAT_R32G32_SFLOAT;
+    const TextureHandle table = graph.create(desc);
+    add_scan(graph, moments, rows, {"sum rows", true, integer, in_shared_memory, levels});
+    add_scan(graph, rows, table, {"sum columns", false, integer, in_shared_memory, levels});
+    return table;
+}
+
+}  // namespace gn

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Summed-area variance shadow maps: one table answers boxes of every size and shape at the same cost.
+//
+// Based on: Lauritzen. Summed-Area Variance Shadow Maps. GPU Gems 3, 2007. [Lau07]
+// Stands on: shadow/map/vsm (moments, Chebyshev's bound and the reduction of bleeding)
+// Also here: sat_scan.h, sat_scan.cpp
+#include "shadow/map/sat_vsm/sat_vsm.h"
+
+#include "shadow/map/prefilter.h"
+#include "shadow/map/sat_vsm/sat_scan.h"
+
+namespace gn {
+namespace {
+
+ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    const auto params = recipe.of<GnSatVsmParams>("sat-vsm");
+
+    // Rasterize moments; a texel without caster stores those of the far plane.
+    MomentMap moments;
+    moments.name = "map moments";
+    moments.format = VK_FORMAT_R32G32_SFLOAT;
+    moments.samples = params.samples;
+    moments.clear = {.color = vec4(1, 1, 0, 0)};
+    moments.fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
+    moments.fragment.body = params.slope_moment != 0
+                                ? "out_moments = vec4(gn_vsm_moments(depth, dFdx(in_depth), dFdy(in_depth)), 0, 0);"
+                                : "out_moments = vec4(gn_vsm_moments(depth, 0.0, 0.0), 0, 0);";
+    const TextureHandle raw = add_moments(input, recipe, views, moments);
+
+    // Sum.
+    ShadowMap map;
+    map.texture = add_sat(input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box});
+    map.sampler = nearest();
+    return map;
+}
+
+Guard guard(const Recipe& recipe) {
+    return {.texels = recipe.of<GnSatVsmParams>("sat-vsm").radius};
+}
+
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    const int samples = recipe.of<GnSatVsmParams>("sat-vsm").samples;
+    return samples == 1 || samples == 4
+               ? ""
+               : fmt::format("sat-vsm.samples = {} is not offered; valid are 1 and 4", samples);
+}
+
+ParamTable rows() {
+    return param_table<GnSatVsmParams>({
+        GN_CHOICE(GnSatVsmParams, table,
+                  "Floats lose precision with the map's area; integers are exact up to boxes of sat-vsm.max_box.",
+                  "float32", "uint32"),
+        GN_CHOICE(GnSatVsmParams, scan, "How lines are summed: one invocation each, or one workgroup each.", "auto",
+                  "serial", "shared"),
+        GN_PARAM(GnSatVsmParams, max_box, integer, 8, 512, "texels",
+                 "Side of the largest box: steadier far shadows, but integers are left with coarser moments."),
+        GN_PARAM(GnSatVsmParams, radius, real, 0, 128, "texels",
+                 "Half the least box beyond the receiver's texel: softer edges and more bleeding at no cost."),
+        GN_PARAM(GnSatVsmParams, samples, integer, 1, 4, "",
+                 "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
+        GN_PARAM(GnSatVsmParams, slope_moment, boolean, 0, 1, "",
+                 "Adds the slope of the surface to the second moment: no acne on slanted surfaces."),
+        GN_PARAM(GnSatVsmParams, min_deviation, real, 0, 1, "m",
+                 "Least standard deviation assumed: less acne, softer contacts."),
+        GN_PARAM(GnSatVsmParams, bleeding, real, 0, 0.99, "",
+                 "Share of the bound cut off: less bleeding, darker and harder penumbrae."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& map_sat_vsm() {
+    static const Part part = [] {
+        Part p;
+        p.id = "sat-vsm";
+        p.stage = Stage::map;
+        p.title = "Summed-area variance shadow maps";
+        p.citation = "Lau07";
+        p.gives = "filterable";
+        p.params = rows();
+        p.params_type = "GnSatVsmParams";
+        p.glsl = "shadow/map/sat_vsm/sat_vsm.glsl";
+        p.add_map = add_sat_vsm;
+        p.guard = guard;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

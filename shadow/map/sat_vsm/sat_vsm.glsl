@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Summed-area variance shadow maps: moments of any box of texels from the corners of a table.
+// Based on: Lauritzen. Summed-Area Variance Shadow Maps. GPU Gems 3, 2007. [Lau07]
+// Departs from it: boxes of whole texels are blended at four offsets, so that both kinds of table filter alike.
+#ifndef GN_SHADOW_MAP_SAT_VSM_GLSL
+#define GN_SHADOW_MAP_SAT_VSM_GLSL
+
+#include "shadow/map/sat_vsm/sat_vsm.h"
+#include "shadow/map/vsm/vsm.glsl"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// Steps of a moment in an integer table. Sums may wrap around; a box's difference is right as long as the box's own
+// sum is below 2^32, which bounds the steps by the largest box. Rounding a float to the nearest step needs one of its 24 bits.
+GN_FN float gn_sat_levels(int max_box) {
+    return float(min(0xffffffffu / uint(max_box * max_box), 0x7fffffu));
+}
+
+GN_FN uvec2 gn_sat_quantize(vec2 moments, float levels) {
+    return uvec2(uint(clamp(moments.x, 0.0f, 1.0f) * levels + 0.5f), uint(clamp(moments.y, 0.0f, 1.0f) * levels + 0.5f));
+}
+
+// A float table sums differences from these, which keeps the sums, and so their rounding, small. [Lau07] 8.4.1
+GN_FN vec2 gn_sat_centre() { return vec2(0.5f, 0.375f); }
+
+// A pair of 32-bit integers in four 16-bit shares of one.
+GN_FN vec4 gn_sat_pack(uvec2 sums) {
+    return vec4(float(sums.x >> 16u), float(sums.x & 65535u), float(sums.y >> 16u), float(sums.y & 65535u)) / 65535.0f;
+}
+
+GN_FN uvec2 gn_sat_unpack(vec4 packed) {
+    vec4 halves = packed * 65535.0f + 0.5f;
+    return uvec2(uint(halves.x) * 65536u + uint(halves.y), uint(halves.z) * 65536u + uint(halves.w));
+}
+
+// Along one axis: a box of `size` texels, its first texel, and how far the receiver lies towards the next box.
+struct GnSatSpan {
+    int first;
+    int size;
+    float weight;
+};
+
+// The span of `side` texels around t, rounded to whole ones.
+GN_FN GnSatSpan gn_sat_span(float t, float side, int max_box) {
+    GnSatSpan span;
+    span.size = clamp(int(floor(side + 0.5f)), 1, max_box);
+    float start = t - 0.5f * float(span.size);
+    span.first = int(floor(start));
+    span.weight = start - floor(start);
+    return span;
+}
+
+// First texel and end of the span moved by `offset`, cut to [low, high) but never empty.
+GN_FN ivec2 gn_sat_cut(GnSatSpan span, int offset, int low, int high) {
+    int first = clamp(span.first + offset, low, high - 1);
+    return ivec2(first, clamp(span.first + offset + span.size, first + 1, high));
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+// Sum of all texels before `corner`.
+vec4 gn_sat_fetch(sampler2DArray table, ivec2 corner, int layer) {
+    return min(corner.x, corner.y) == 0 ? vec4(0.0) : texelFetch(table, ivec3(corner - 1, layer), 0);
+}
+
+// Mean moments of the texels [x.x, x.y) by [y.x, y.y): four corners of the table.
+vec2 gn_sat_mean(sampler2DArray table, int layer, ivec2 x, ivec2 y, GnSatVsmParams params) {
+    vec4 a = gn_sat_fetch(table, ivec2(x.y, y.y), layer);
+    vec4 b = gn_sat_fetch(table, ivec2(x.x, y.y), layer);
+    vec4 c = gn_sat_fetch(table, ivec2(x.y, y.x), layer);
+    vec4 d = gn_sat_fetch(table, ivec2(x.x, y.x), layer);
+    float area = float((x.y - x.x) * (y.y - y.x));
+    if (params.table == GN_SAT_FLOAT32) {
+        return (a.xy - b.xy - c.xy + d.xy) / area + gn_sat_centre();
+    }
+    uvec2 sum = gn_sat_unpack(a) - gn_sat_unpack(b) - gn_sat_unpack(c) + gn_sat_unpack(d);
+    return vec2(sum) / (area * gn_sat_levels(params.max_box));
+}
+
+float gn_sat_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
+                            GnSatVsmParams params) {
+    // The box that holds the footprint, at least the kernel asked for.
+    vec2 t = projected.uv_ts / projected.texel_ts;
+    vec2 side = max((abs(ddx_ts) + abs(ddy_ts)) / projected.texel_ts, vec2(2.0 * params.radius + 1.0));
+    GnSatSpan u = gn_sat_span(t.x, side.x, params.max_box);
+    GnSatSpan v = gn_sat_span(t.y, side.y, params.max_box);
+    ivec4 bounds = ivec4(projected.bounds_ts / projected.texel_ts + 0.5);
+
+    // Blend its four positions of whole texels.
+    vec2 moments = vec2(0.0);
+    for (int y = 0; y < 2; ++y) {
+        for (int x = 0; x < 2; ++x) {
+            float weight = (x == 0 ? 1.0 - u.weight : u.weight) * (y == 0 ? 1.0 - v.weight : v.weight);
+            moments += weight * gn_sat_mean(map, projected.layer, gn_sat_cut(u, x, bounds.x, bounds.z),
+                                            gn_sat_cut(v, y, bounds.y, bounds.w), params);
+        }
+    }
+    float deviation = params.min_deviation / projected.metres_per_depth;
+    float rounding = params.table == GN_SAT_UINT32 ? 1.0 / gn_sat_levels(params.max_box) : 0.0;
+    float bound = gn_vsm_chebyshev(moments, projected.depth, max(deviation * deviation, rounding));
+    return gn_vsm_reduce_bleeding(bound, params.bleeding);
+}
+
+#endif
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Parameters of summed-area variance shadow maps.
+#ifndef GN_SHADOW_MAP_SAT_VSM_H
+#define GN_SHADOW_MAP_SAT_VSM_H
+
+#include "base/shared.h"
+
+#define GN_SAT_FLOAT32 0
+#define GN_SAT_UINT32 1
+#define GN_SAT_SCAN_AUTO 0
+#define GN_SAT_SCAN_SERIAL 1
+#define GN_SAT_SCAN_SHARED 2
+
+struct GnSatVsmParams {
+    int table GN_DEFAULT(GN_SAT_UINT32);
+    int scan GN_DEFAULT(GN_SAT_SCAN_AUTO);
+    int max_box GN_DEFAULT(64);
+    float radius GN_DEFAULT(2.0f);
+    int samples GN_DEFAULT(1);
+    int slope_moment GN_DEFAULT(1);
+    float min_deviation GN_DEFAULT(0.02f);
+    float bleeding GN_DEFAULT(0.2f);
+};
+
+#endif
