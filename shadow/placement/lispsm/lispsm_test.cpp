@@ -95,7 +95,7 @@ TEST(Lispsm, HullTouchesAllFourBorders) {
     for (const vec3 to_light : {vec3(0, 1, 0), vec3(0.4F, 1, 0.3F), vec3(1, 0.4F, -0.2F)}) {
         const Scene scene = test::long_floor(2, 90, to_light);
         const int resolution = 1024;
-        const LightViews views = test::place(scene, "hard,placement=lispsm,resolution=1024");
+        const LightViews views = test::place(scene, "pcf,pcf.size=9,placement=lispsm,resolution=1024");
         FrameGraph graph(test::device());
         const SceneHandles handles;
         const ViewSamples samples{.width = 256, .height = 256, .camera = scene.cameras.front()};
@@ -106,7 +106,7 @@ TEST(Lispsm, HullTouchesAllFourBorders) {
             low = glm::min(low, test::uv_of(views.views[0], p));
             high = glm::max(high, test::uv_of(views.views[0], p));
         }
-        const double guard = static_cast<double>(guard_of(load_recipe("hard")).texels) / resolution;
+        const double guard = static_cast<double>(guard_of(load_recipe("pcf,pcf.size=9")).texels) / resolution;
         for (int axis = 0; axis < 2; ++axis) {
             EXPECT_NEAR(low[axis], guard, 1.0 / resolution) << to_light.x << " axis " << axis;
             EXPECT_NEAR(high[axis], 1 - guard, 1.0 / resolution) << to_light.x << " axis " << axis;
@@ -118,15 +118,17 @@ TEST(Lispsm, HullTouchesAllFourBorders) {
 TEST(Lispsm, FallsBackToFitSmoothlyAsTheViewTurnsIntoTheLight) {
     Scene scene = test::long_floor(2, 60);
     scene.bounds_ws.max.y = 3;
-    const double third = 0.6 / 3;
+    // The light leaves the view to one side, so that the fitted rectangle is turned against the view.
+    const double aside = 0.5;
+    const double third = std::atan(std::tan(0.6) / std::cos(aside)) / 3;
     const auto turned = [&](double angle) {
         scene.lights[0].shape.direction_ws =
-            vec4(0, static_cast<float>(-std::sin(angle)), static_cast<float>(-std::cos(angle)), 0);
+            vec4(dvec4(-std::sin(angle) * std::sin(aside), -std::sin(angle) * std::cos(aside), -std::cos(angle), 0));
     };
     turned(0.99 * third);
     EXPECT_EQ(test::place(scene, warped).views[0].cs_from_ws, test::place(scene, plain).views[0].cs_from_ws);
 
-    // Close above the threshold a texel's area is nearly the fitted one's, and gets closer still.
+    // Close above the threshold texels are nearly the fitted ones, and get closer still.
     double before = 1;
     for (const double above : {0.1, 0.03, 0.01, 0.003}) {
         turned((1 + above) * third);
@@ -142,6 +144,11 @@ TEST(Lispsm, FallsBackToFitSmoothlyAsTheViewTurnsIntoTheLight) {
             const float area = glm::length(glm::cross(in_a.du_ws, in_a.dv_ws));
             const float fitted = glm::length(glm::cross(in_b.du_ws, in_b.dv_ws));
             difference = std::max(difference, static_cast<double>(std::abs(area / fitted - 1)));
+            // The map's axes turn into the fitted ones, up to quarter turns.
+            const vec3 u = glm::normalize(in_a.du_ws);
+            const float cosine = std::max(std::abs(glm::dot(u, glm::normalize(in_b.du_ws))),
+                                          std::abs(glm::dot(u, glm::normalize(in_b.dv_ws))));
+            difference = std::max(difference, static_cast<double>(1 - cosine));
         }
         EXPECT_LT(difference, before) << above;
         before = difference;
@@ -168,6 +175,44 @@ TEST(Lispsm, EveryViewSampleProjectsInsideTheMap) {
             }
         }
     }
+}
+
+/// Wherever the light stands, no receiver beyond the pseudo-near plane gets a coarser texel on screen than the coarsest of
+/// the unwarped map.
+TEST(Lispsm, WorstTexelOnScreenIsNeverWorseThanFits) {
+    Scene scene = load_scene("duel");
+    const Camera& camera = scene.cameras.front();
+    FrameGraph graph(test::device());
+    const SceneHandles handles;
+    const ViewSamples samples{.width = 256, .height = 256, .camera = camera};
+    const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+    const ConvexBody body = potential_receivers(input, 1, static_cast<double>(camera.far));
+    const auto worst = [&](const GnLightView& view) {
+        double most = 0;
+        for (const dvec3& p : body.vertices()) {
+            glsl::GnReceiver receiver{};
+            receiver.p_ws = vec3(p);
+            const auto projected = glsl::gn_project(receiver, view, {});
+            const double depth = glm::dot(p - dvec3(camera.position_ws), dvec3(camera.forward_ws));
+            most = std::max(most, static_cast<double>(projected.texel_ws) / depth);
+        }
+        return most;
+    };
+    int warped_views = 0;
+    std::mt19937 random(9);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 200; ++i) {
+        const vec3 to_light = glm::normalize(vec3(normal(random), std::abs(normal(random)) + 0.1F, normal(random)));
+        scene.lights[0].shape.direction_ws = vec4(-to_light, 0);
+        const GnLightView fitted = test::place(scene, plain).views[0];
+        GnLightView view;
+        for (const char* eta : {",lispsm.eta=1", ",lispsm.eta=0"}) {
+            view = test::place(scene, std::string(warped) + eta).views[0];
+            EXPECT_LE(worst(view), 1.01 * worst(fitted)) << to_light.x << " " << to_light.y << " " << to_light.z << eta;
+        }
+        warped_views += view.cs_from_ws != fitted.cs_from_ws ? 1 : 0;
+    }
+    EXPECT_GT(warped_views, 100);
 }
 
 /// Duelling frusta: no warp helps, and none may harm.
