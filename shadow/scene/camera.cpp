@@ -221,11 +221,16 @@ void complete_cameras(Scene& scene) {
             repair_camera(frame, bounds, scene.notes);
         }
     }
-    if (scene.cameras.empty()) {
+    // The whole from outside: the default view of a bare model, one more view, `overview`, of any other.
+    make_names_unique(scene.cameras);
+    const bool bare = scene.cameras.empty();
+    const bool taken = std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                                   [](const Camera& camera) { return camera.name == "overview"; });
+    if (bare || (!taken && !scene.closed_form && !scene.bounds_ws.empty())) {
         scene.cameras.push_back(frame_box(scene.bounds_ws.empty() ? bounds : main_bounds(scene)));
+        scene.cameras.back().name = bare ? "main" : "overview";
         choose_range(scene.cameras.back(), bounds, false, false);
     }
-    make_names_unique(scene.cameras);
 }
 
 }  // namespace gn

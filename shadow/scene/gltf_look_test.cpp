@@ -84,7 +84,7 @@ TEST(GltfCamera, PerspectiveCamerasAndTheirRepair) {
         {"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":5}},
         {"type":"perspective","perspective":{"yfov":0,"znear":0,"zfar":-1}}],)";
     const Scene scene = load(gltf);
-    ASSERT_EQ(scene.cameras.size(), 2U);
+    ASSERT_EQ(scene.cameras.size(), 3U);  // and overview
     const Camera& eye = scene.camera("eye");
     EXPECT_EQ(eye.position_ws, vec3(0, 1, 4));
     EXPECT_EQ(eye.forward_ws, vec3(0, 0, -1));
