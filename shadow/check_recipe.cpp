@@ -2,6 +2,8 @@
 // What a recipe cannot do, asked before anything is drawn.
 #include "shadow/check_recipe.h"
 
+#include "shadow/map/casters.h"
+
 #include <array>
 
 namespace gn {
@@ -28,6 +30,33 @@ std::string mismatch_of(const Part& map, const Part& lookup) {
                        lookup.id, lookup.needs, map.id, map.gives, lookup.needs,
                        ids_of(Stage::map, [&](const Part& part) { return part.gives == lookup.needs; }), map.gives,
                        ids_of(Stage::lookup, [&](const Part& part) { return part.needs == map.gives; }));
+}
+
+/// The sentence why what the recipe keeps of its casters does not fit its parts or the scene, or "".
+std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
+    const std::string& casters = recipe.casters;
+    if (casters == "all" || (recipe.direct == nullptr && recipe.map == nullptr)) {
+        return {};
+    }
+    if (recipe.direct != nullptr) {
+        return fmt::format("casters = {} says what a map keeps, and direct '{}' draws none; valid is casters = all",
+                           casters, recipe.direct->id);
+    }
+    if (casters != "front" && casters != "back" && !recipe.map->separates_casters) {
+        return fmt::format("casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, front, back",
+                           casters, recipe.map->id,
+                           ids_of(Stage::map, [](const Part& part) { return part.separates_casters; }), recipe.map->id);
+    }
+    if (casters == "ids" && !recipe.lookup->compares_ids) {
+        return fmt::format("casters = ids: lookup '{}' compares depths only; lookups that compare ids: {}",
+                           recipe.lookup->id,
+                           ids_of(Stage::lookup, [](const Part& part) { return part.compares_ids; }));
+    }
+    if (casters == "ids" && scene.objects.size() > max_object_ids) {
+        return fmt::format("casters = ids: the scene has {} objects; at most {} have an id of their own",
+                           scene.objects.size(), max_object_ids);
+    }
+    return {};
 }
 
 void check_part(const Part& part, const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
@@ -72,6 +101,9 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
             refuse("{}", sentence);
         }
         check_part(recipe.placement_for(light.shape), recipe, scene, light, device);
+    }
+    if (const std::string sentence = casters_misfit(recipe, scene); !sentence.empty()) {
+        refuse("{}", sentence);
     }
     for (const Part* part : {recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
         if (part != nullptr) {

@@ -42,6 +42,8 @@ class Part {
     std::string_view citation;  ///< key in docs/references.bib
     std::string_view needs;     ///< lookup: what the map must give ("depth", "moments"); else ""
     std::string_view gives;     ///< map: what it gives; else ""
+    bool separates_casters = false;  ///< map: serves casters = midpoint, dual, ids
+    bool compares_ids = false;       ///< lookup: compares objects where casters = ids
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
     ParamTable params;

@@ -5,6 +5,8 @@
 // Space suffixes: _ws world, _cs the light's clip space, _ts texture space of the map's layer ([0,1]^2), _ss pixels.
 // Based on: Isidoro. Shadow Mapping: GPU-based Tips and Techniques. GDC 2006. [Isi06]
 // Departs from it: the plane's depth is exact under any projection, not a constant gradient.
+// The cone and the view bias: Akenine-Moeller, Haines, Hoffman, Pesce, Iwanicki, Hillaire. Real-Time Rendering. 2018.
+// [AHH18], 7.4 and 7.5.
 #ifndef GN_SHADOW_RECEIVER_GLSL
 #define GN_SHADOW_RECEIVER_GLSL
 
@@ -26,6 +28,8 @@ struct GnReceiver {
     vec2 p_ss;         // pixel centre, in pixels
     vec3 ddx_ws;       // the receiver's change from one pixel to the next, along its plane: to the right
     vec3 ddy_ws;       // and downwards; metres
+    vec3 to_camera_ws;  // unit
+    int object;         // index into the scene's objects; only where casters = ids
 };
 
 // The receiver in one light view, moved by the bias.
@@ -42,6 +46,7 @@ struct GnProjected {
     float texel_ws;         // side of a texel at the receiver, across the rays, metres (the larger of both axes)
     vec4 bounds_ts;         // min.xy, max.zw of the view's rectangle
     float metres_per_depth;
+    float cone;             // depth towards the light per unit of uv between a tap and the receiver
     bool inside;            // false: the view does not see the receiver
 };
 
@@ -84,6 +89,45 @@ GN_FN void gn_paraboloid_gradients(GnLightView view, vec3 p_ls, vec2 scale_ts, G
     dv_ws = gv.x * x + gv.y * y + gv.z * z;
 }
 
+// Gradients of uv_ts over the world at p_ws, per metre.
+GN_FN void gn_uv_gradients(GnLightView view, vec3 p_ws, GN_OUT(vec3) du_ws, GN_OUT(vec3) dv_ws) {
+    vec2 scale_ts = 0.5f * vec2(view.rect_ts.z, view.rect_ts.w);
+    vec3 row_w = gn_row(view.cs_from_ws, 3);
+    vec4 p_cs = gn_clip(view, p_ws);
+    float inverse_w = 1.0f / p_cs.w;
+    du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
+    dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
+    if (view.paraboloid > 0.0f) {
+        gn_paraboloid_gradients(view, vec3(p_cs), scale_ts, du_ws, dv_ws);
+    }
+}
+
+// Linear depth that one metre towards the view's eye takes off.
+GN_FN float gn_depth_per_metre(GnLightView view, vec3 to_eye_ws) {
+    return view.paraboloid > 0.0f ? 1.0f / view.metres_per_depth : -dot(vec3(view.depth_from_ws), to_eye_ws);
+}
+
+// Factor of the biases in texels: they cover half a texel to each side, a kernel reaches further. Following the
+// receiver's plane leaves nothing of that to cover.
+GN_FN float gn_bias_growth(GnBias bias, float texel_ws) {
+    float reach = max(bias.reach, bias.reach_world / texel_ws);
+    return 1.0f + (bias.receiver_plane == 0 ? 2.0f * bias.kernel * reach : 0.0f);
+}
+
+// Where a receiver is looked up: moved towards the light, along its normal where the light grazes it, and towards the
+// camera. All moves are measured in texels at the receiver.
+GN_FN vec3 gn_biased(GnReceiver receiver, vec3 to_eye_ws, float texel_ws, GnBias bias) {
+    float cosine = clamp(dot(receiver.n_ws, to_eye_ws), 0.0f, 1.0f);
+    float sine = sqrt(max(0.0f, 1.0f - cosine * cosine));
+    float tangent = cosine * bias.slope_max > sine ? sine / cosine : bias.slope_max;
+    float texels_ws = gn_bias_growth(bias, texel_ws) * texel_ws;
+    float towards_light = (bias.constant + bias.slope * tangent) * texels_ws + bias.constant_world;
+    float along_normal = (bias.normal * texels_ws + bias.normal_world) * sine;
+    float towards_camera = bias.view * texels_ws + bias.view_world;
+    return receiver.p_ws + to_eye_ws * towards_light + receiver.n_ws * along_normal +
+           receiver.to_camera_ws * towards_camera;
+}
+
 // Projects the moved receiver on a paraboloid and sets up the depth of its plane m: along the ray of u it is
 // (1 + |u|^2) / (2 m.xy u + m.z (1 - |u|^2)), a quotient of quadratic forms, expanded around the receiver's u.
 GN_FN GnProjected gn_project_paraboloid(GnProjected result, GnLightView view, vec3 p_ls, vec3 n_ws) {
@@ -118,36 +162,24 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     vec2 scale_ts = 0.5f * vec2(view.rect_ts.z, view.rect_ts.w);
     vec3 row_w = gn_row(view.cs_from_ws, 3);
 
-    // Size of a texel at the receiver: the gradient of uv over the world, inverted.
-    vec4 p_cs = gn_clip(view, receiver.p_ws);
-    float inverse_w = 1.0f / p_cs.w;
-    result.du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
-    result.dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
-    if (view.paraboloid > 0.0f) {
-        gn_paraboloid_gradients(view, vec3(p_cs), scale_ts, result.du_ws, result.dv_ws);
-    }
+    // Measure a texel at the receiver, and move the receiver by the bias.
+    gn_uv_gradients(view, receiver.p_ws, result.du_ws, result.dv_ws);
     result.texel_ts = 1.0f / view.resolution;
     result.texel_ws = result.texel_ts / min(length(result.du_ws), length(result.dv_ws));
-
-    // Move the receiver: towards the light, and along its normal where the light grazes it.
     vec3 to_eye = gn_to_eye(view, receiver.p_ws);
-    float cosine = clamp(dot(receiver.n_ws, to_eye), 0.0f, 1.0f);
-    float sine = sqrt(max(0.0f, 1.0f - cosine * cosine));
-    float tangent = cosine * bias.slope_max > sine ? sine / cosine : bias.slope_max;
-    float towards_light = (bias.constant + bias.slope * tangent) * result.texel_ws + bias.constant_world;
-    float along_normal = (bias.normal * result.texel_ws + bias.normal_world) * sine;
-    vec3 p_ws = receiver.p_ws + to_eye * towards_light + receiver.n_ws * along_normal;
+    vec3 p_ws = gn_biased(receiver, to_eye, result.texel_ws, bias);
+    result.cone = bias.cone * gn_depth_per_metre(view, to_eye) * result.texel_ws * view.resolution;
 
     // Project.
     result.layer = view.layer;
     result.metres_per_depth = view.metres_per_depth;
     result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
-    p_cs = gn_clip(view, p_ws);
+    vec4 p_cs = gn_clip(view, p_ws);
     if (view.paraboloid > 0.0f) {
         return gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws);
     }
     result.plane_curve = vec2(0.0f);
-    inverse_w = 1.0f / p_cs.w;
+    float inverse_w = 1.0f / p_cs.w;
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
     result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
@@ -171,22 +203,44 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     return result;
 }
 
+// Depth that the cone takes off at a distance from the receiver; compiled in only where the recipe has a cone.
+#if defined(__cplusplus)
+#define GN_BIAS_CONE 1
+#elif !defined(GN_BIAS_CONE)
+#define GN_BIAS_CONE 0
+#endif
+GN_FN float gn_cone(GnProjected projected, vec2 d_ts) {
+#if GN_BIAS_CONE
+    return projected.cone * length(d_ts);
+#else
+    return 0.0f;
+#endif
+}
+GN_FN vec4 gn_cones(GnProjected projected, vec4 du_ts, vec4 dv_ts) {
+#if GN_BIAS_CONE
+    return projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts);
+#else
+    return vec4(0.0f);
+#endif
+}
+
 // Linear depth of the receiver's plane at uv_ts, or of the receiver itself where bias.receiver_plane is off.
 GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
-    if (bias.receiver_plane == 0) {
-        return projected.depth;
-    }
     vec2 d_ts = uv_ts - projected.uv_ts;
+    float depth = projected.depth - gn_cone(projected, d_ts);
+    if (bias.receiver_plane == 0) {
+        return depth;
+    }
     vec2 curve = projected.plane_curve * dot(d_ts, d_ts);
     float divisor = max(1.0f - dot(projected.plane_fall, d_ts) - curve.y, gn_least_divisor);
-    return projected.depth + (dot(projected.plane_slope, d_ts) + curve.x) / divisor;
+    return depth + (dot(projected.plane_slope, d_ts) + curve.x) / divisor;
 }
 
 // Whether four occluders at four points leave the receiver's plane lit: gn_depth_at <= occluder without the division.
 GN_FN bvec4 gn_lit_at(GnProjected projected, vec4 u_ts, vec4 v_ts, vec4 occluder, GnBias bias) {
-    vec4 room = occluder - projected.depth;
     vec4 du_ts = u_ts - projected.uv_ts.x;
     vec4 dv_ts = v_ts - projected.uv_ts.y;
+    vec4 room = occluder - projected.depth + gn_cones(projected, du_ts, dv_ts);
     float plane = bias.receiver_plane == 0 ? 0.0f : 1.0f;
     vec4 divisor = 1.0f - plane * (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
     vec4 offset = plane * (projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts);

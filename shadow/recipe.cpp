@@ -26,13 +26,24 @@ const ParamTable bias_params = param_table<GnBias>({
     GN_PARAM(GnBias, normal_world, real, 0, 10, "m", "The same in metres: independent of the map's resolution."),
     GN_PARAM(GnBias, receiver_plane, boolean, 0, 1, "",
              "Wide kernels follow the receiver's plane, which removes their acne and costs two dot products a tap."),
+    GN_PARAM(
+        GnBias, cone, real, 0, 64, "texels",
+        "Lifts each tap by this much a texel of its distance: less acne under wide kernels, more leaks beside it."),
+    GN_PARAM(GnBias, view, real, 0, 64, "texels",
+             "Moves the receiver towards the camera: less acne on surfaces that face it, a gap that moves with it."),
+    GN_PARAM(GnBias, view_world, real, 0, 10, "m", "The same in metres: independent of the map's resolution."),
+    GN_PARAM(GnBias, kernel, real, 0, 4, "",
+             "Without receiver_plane, biases in texels grow by this share of what the kernel's reach asks for."),
+    GN_PARAM(GnBias, dual, real, 0, 1024, "texels",
+             "casters = dual: lets the stored depth lie further behind the nearest surface: less acne, wider gaps."),
+    GN_PARAM(GnBias, dual_world, real, 0, 100, "m", "The same in metres, added to dual."),
 });
 
 namespace {
 
 constexpr int min_resolution = 16, max_resolution = 16384;
 constexpr std::uintmax_t max_recipe_bytes = 1U << 20U;
-constexpr std::array<std::string_view, 3> caster_names{"all", "front", "back"};
+constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
 constexpr std::array<std::string_view, 8> top_level_keys{"placement",  "map",        "lookup",  "direct",
                                                          "visibility", "resolution", "casters", "bias"};
 

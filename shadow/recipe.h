@@ -21,7 +21,9 @@ struct Recipe {
     const Part* visibility = nullptr;  ///< optional
     int resolution = 1024;             ///< texels along a side of the map; per view of multi-view placements
     GnBias bias;
-    std::string casters = "all";  ///< which faces are drawn into maps: all, front, back (later midpoint, dual, ids)
+    /// What maps keep of the casters: the nearest of all, front or back faces; the surface between the two nearest
+    /// (midpoint, dual); object ids beside depth (ids). See shadow/map/casters.h.
+    std::string casters = "all";
     std::map<std::string, ParamBlock, std::less<>> params;  ///< by part id, for every part there is
 
     /// The parameters of a part in this recipe (defaults where nothing was set).

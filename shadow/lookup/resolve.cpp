@@ -117,8 +117,8 @@ Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const Ligh
             }
             pass.storage_write(result.image);
         },
-        [shader = resolve_shader(*views.part, recipe), bytes = constants_of(input, recipe), samples, views, map,
-         result, ids](Recorder& r) {
+        [shader = resolve_shader(*views.part, recipe), bytes = constants_of(input, recipe), samples, views, map, result,
+         ids](Recorder& r) {
             r.bind(shader);
             set_samples(r, samples, views);
             if (ids) {

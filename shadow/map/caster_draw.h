@@ -25,8 +25,12 @@ struct CasterDraw {
     }
     void begin(Recorder& r, bool masked) const;
     void opaque(Recorder& r, std::span<const std::uint32_t> objects) const;
+    void opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> objects) const;
     void masked(Recorder& r, std::span<const std::uint32_t> objects) const;
 };
+
+/// Viewport and scissor of a view's rectangle in its layer.
+void set_viewport(Recorder& r, const GnLightView& view);
 
 /// Whether a pass can keep its map over frames: the placement asks, and the attachments have one sample and one mip.
 bool can_keep(const FrameInput& input, const LightViews& views, const CasterPass& pass);

@@ -13,7 +13,7 @@ constexpr const char* vertex_text = R"(
 #include "shadow/light_view.h"
 layout(location = 0) in vec3 in_position_ws;
 layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; } push;
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
 #if defined(GN_FRAGMENT) && !defined(GN_PARABOLOID)
 layout(location = 0) out float out_depth;
 #endif
@@ -89,7 +89,7 @@ void main() {
 
 constexpr const char* fragment_head = R"(
 #include "shadow/paraboloid.glsl"
-layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; } push;
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
 #ifdef GN_MASKED
 layout(binding = 2) uniform sampler2D base_color_texture;
 #endif
@@ -137,6 +137,7 @@ void main() {
 struct Push {
     int view;
     float base_alpha, alpha_cutoff;
+    int object;
 };
 
 struct Variant {
@@ -173,14 +174,14 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant
     return desc;
 }
 
+}  // namespace
+
 void set_viewport(Recorder& r, const GnLightView& view) {
     const float n = view.resolution;
     r.viewport(view.rect_ts.x * n, view.rect_ts.y * n, view.rect_ts.z * n, view.rect_ts.w * n);
     r.scissor(static_cast<std::int32_t>(view.rect_ts.x * n), static_cast<std::int32_t>(view.rect_ts.y * n),
               static_cast<std::uint32_t>(view.rect_ts.z * n), static_cast<std::uint32_t>(view.rect_ts.w * n));
 }
-
-}  // namespace
 
 void CasterDraw::begin(Recorder& r, bool masked) const {
     const GnLightView& first = views.views[view];
@@ -194,14 +195,31 @@ void CasterDraw::begin(Recorder& r, bool masked) const {
 }
 
 void CasterDraw::opaque(Recorder& r, std::span<const std::uint32_t> objects) const {
+    if (pass.by_object) {
+        opaque_one_by_one(r, objects);
+        return;
+    }
     const std::vector<DrawRange> runs = opaque_runs(*scene, objects);
     if (runs.empty()) {
         return;
     }
     begin(r, false);
-    r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F});
+    r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F, -1});
     for (const DrawRange& run : runs) {
         r.draw_indexed(run.index_count, instances(), run.first_index);
+    }
+}
+
+void CasterDraw::opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> objects) const {
+    begin(r, false);
+    const std::size_t count = objects.empty() ? scene->objects.size() : objects.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t index = objects.empty() ? static_cast<std::uint32_t>(i) : objects[i];
+        const Object& object = scene->objects[index];
+        if (!is_masked(*scene, object)) {
+            r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index)});
+            r.draw_indexed(object.triangle_count * 3, instances(), object.first_triangle * 3);
+        }
     }
 }
 
@@ -218,7 +236,7 @@ void CasterDraw::masked(Recorder& r, std::span<const std::uint32_t> objects) con
         const BaseColor color = base_color(*scene, handles, material);
         const AlphaTest test = alpha_test(material);
         r.set("base_color_texture", color.texture, color.sampler);
-        r.push_value(Push{static_cast<int>(view), test.base_alpha, test.cutoff});
+        r.push_value(Push{static_cast<int>(view), test.base_alpha, test.cutoff, static_cast<int>(index)});
         r.draw_indexed(object.triangle_count * 3, instances(), object.first_triangle * 3);
     }
 }
@@ -246,6 +264,9 @@ void CasterDraw::declare(PassBuilder& builder) const {
     builder.storage_read(handles.uvs);
     sample_textures(builder, handles);
     declare_views(builder, views);
+    if (pass.declare) {
+        pass.declare(builder);
+    }
 }
 
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {

@@ -24,6 +24,8 @@ struct CasterPass {
     TextureHandle depth;                         ///< D32; its layers as the views'
     CasterFragment fragment;                     ///< empty: depth only
     std::function<void(Recorder&)> bind_values;  ///< sets what `includes` declares
+    std::function<void(PassBuilder&)> declare;   ///< declares what it reads beyond the casters; empty: nothing
+    bool by_object = false;                      ///< one draw an object; `body` may read int push.object
 };
 
 /// One pass a view, into the view's rectangle of its layer: opaque casters, then alpha-tested ones. Depth is linear:

@@ -31,6 +31,8 @@ GnReceiver gn_receiver(GnViewConstants view, ivec2 pixel, vec4 position, vec4 no
     vec4 below = view.ws_from_cs * vec4((receiver.p_ss + vec2(0, 1)) / size * 2.0 - 1.0, 0.5, 1.0);
     receiver.ddx_ws = gn_plane_step(receiver.p_ws, receiver.n_ws, view.eye_ws.xyz, right.xyz / right.w - view.eye_ws.xyz);
     receiver.ddy_ws = gn_plane_step(receiver.p_ws, receiver.n_ws, view.eye_ws.xyz, below.xyz / below.w - view.eye_ws.xyz);
+    receiver.to_camera_ws = normalize(view.eye_ws.xyz - receiver.p_ws);
+    receiver.object = -1;
     return receiver;
 }
 

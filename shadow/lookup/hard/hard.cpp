@@ -14,6 +14,7 @@ const Part& lookup_hard() {
         p.title = "One comparison";
         p.citation = "Wil78";
         p.needs = "depth";
+        p.compares_ids = true;
         p.glsl = "shadow/lookup/hard/hard.glsl";
         return p;
     }();

@@ -12,7 +12,12 @@ float gn_hard_visibility(GnReceiver receiver, GnProjected projected, GnBias bias
     ivec2 texel = ivec2(floor(projected.uv_ts / projected.texel_ts));
     vec2 centre_ts = (vec2(texel) + 0.5) * projected.texel_ts;
     float occluder = texelFetch(map, ivec3(texel, projected.layer), 0).r;
-    return gn_depth_at(projected, centre_ts, bias) <= occluder ? 1.0 : 0.0;
+    bool lit = gn_depth_at(projected, centre_ts, bias) <= occluder;
+#ifdef GN_CASTER_IDS
+    // An object never shadows itself. [HN85]
+    lit = lit || texelFetch(shadow_map_extra, ivec3(texel, projected.layer), 0).r == float(receiver.object);
+#endif
+    return lit ? 1.0 : 0.0;
 }
 #endif
 
