@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Layered variance shadow maps: each layer stretches one interval of depths over the whole range of its two moments.
+// Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
+// Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
+// Departs from it: a relaxed split lies behind the surface it was found on, not in it.
+#ifndef GN_SHADOW_MAP_LVSM_GLSL
+#define GN_SHADOW_MAP_LVSM_GLSL
+
+#include "shadow/map/lvsm/lvsm.h"
+#include "shadow/map/vsm/vsm.glsl"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// Two layers share a texture.
+GN_FN int gn_lvsm_textures(int layers) { return (layers + 1) / 2; }
+
+// [Lau08] 4.1.1: layers reach over their splits by this much depth on either side.
+GN_FN float gn_lvsm_overlap(GnLvsmParams params) { return params.overlap / float(params.layers); }
+
+// The interval of layer i between two splits, widened where it has a neighbour.
+GN_FN vec2 gn_lvsm_interval(int i, float near_split, float far_split, GnLvsmParams params) {
+    float reach = gn_lvsm_overlap(params);
+    return vec2(i == 0 ? near_split : near_split - reach, i == params.layers - 1 ? far_split : far_split + reach);
+}
+
+// A relaxed split sits on a surface, the second occluder. Put it one overlap behind: the surface lies whole in the nearer
+// layer, and flat on the front of the farther.
+GN_FN float gn_lvsm_behind(float second_occluder, int k, GnLvsmParams params) {
+    return k == 0 || k == params.layers ? second_occluder : second_occluder + gn_lvsm_overlap(params);
+}
+
+GN_FN float gn_lvsm_width(vec2 interval) { return max(interval.y - interval.x, 1.0e-5f); }
+
+// [Lau08] eq. 4.2.
+GN_FN float gn_lvsm_warp(float depth, vec2 interval) {
+    return clamp((depth - interval.x) / gn_lvsm_width(interval), 0.0f, 1.0f);
+}
+
+// Moments of a warped depth; the spread of its plane over the texel joins the second where the warp is not flat.
+GN_FN vec2 gn_lvsm_moments(float depth, float spread, vec2 interval) {
+    float warped = gn_lvsm_warp(depth, interval);
+    bool within = depth >= interval.x && depth <= interval.y;
+    float width = gn_lvsm_width(interval);
+    return vec2(warped, warped * warped + (within ? spread / (width * width) : 0.0f));
+}
+
+// Variance that may be rounding: the three times that a 16-bit moment is rounded (drawn, blurred twice) move
+// M2 - M1^2 by half a unit for the second moment and by twice that for the first.
+GN_FN float gn_lvsm_rounding(int format) { return format == GN_LVSM_UNORM16 ? 4.5f / 65535.0f : 0.0f; }
+
+// Visibility of a receiver in one layer: Chebyshev's bound on the warped distribution.
+GN_FN float gn_lvsm_bound(vec2 moments, float depth, vec2 interval, float min_deviation, GnLvsmParams params) {
+    float deviation = min_deviation / gn_lvsm_width(interval);
+    float min_variance = max(deviation * deviation, gn_lvsm_rounding(params.format));
+    return gn_vsm_reduce_bleeding(gn_vsm_chebyshev(moments, gn_lvsm_warp(depth, interval), min_variance),
+                                  params.bleeding);
+}
+
+// How much of the farther layer a receiver takes that lies `beyond` a split: from 0 to 1 over the overlap.
+GN_FN float gn_lvsm_transition(float beyond, float reach) {
+    return reach > 0.0f ? smoothstep(-reach, reach, beyond) : (beyond < 0.0f ? 0.0f : 1.0f);
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+float gn_lvsm_split(sampler2DArray splits, int map_layer, int k, GnLvsmParams params) {
+    return params.splits == GN_LVSM_UNIFORM
+               ? float(k) / float(params.layers)
+               : gn_lvsm_behind(texelFetch(splits, ivec3(k, map_layer, 0), 0).r, k, params);
+}
+
+float gn_lvsm_layer_visibility(sampler2DArray map, sampler2DArray splits, GnProjected projected, vec2 ddx_ts,
+                               vec2 ddy_ts, int i, GnLvsmParams params) {
+    vec2 interval = gn_lvsm_interval(i, gn_lvsm_split(splits, projected.layer, i, params),
+                                     gn_lvsm_split(splits, projected.layer, i + 1, params), params);
+    float texture_layer = float(projected.layer * gn_lvsm_textures(params.layers) + i / 2);
+    vec4 texel = textureGrad(map, vec3(projected.uv_ts, texture_layer), ddx_ts, ddy_ts);
+    return gn_lvsm_bound((i & 1) == 0 ? texel.xy : texel.zw, projected.depth, interval,
+                         params.min_deviation / projected.metres_per_depth, params);
+}
+
+float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
+                         GnLvsmParams params) {
+    // Find the receiver's layer.
+    int i = 0;
+    while (i + 1 < params.layers && projected.depth >= gn_lvsm_split(splits, projected.layer, i + 1, params)) {
+        ++i;
+    }
+    float near_split = gn_lvsm_split(splits, projected.layer, i, params);
+    float far_split = gn_lvsm_split(splits, projected.layer, i + 1, params);
+
+    // Near a split both its layers answer; transitions of one layer never meet.
+    float reach = min(params.transition * gn_lvsm_overlap(params), 0.5 * (far_split - near_split));
+    float v = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i, params);
+    if (i > 0 && projected.depth - near_split < reach) {
+        float nearer = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i - 1, params);
+        v = mix(nearer, v, gn_lvsm_transition(projected.depth - near_split, reach));
+    } else if (i + 1 < params.layers && far_split - projected.depth < reach) {
+        float farther = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i + 1, params);
+        v = mix(v, farther, gn_lvsm_transition(projected.depth - far_split, reach));
+    }
+    return v;
+}
+
+#endif
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Parameters of layered variance shadow maps.
+#ifndef GN_SHADOW_MAP_LVSM_H
+#define GN_SHADOW_MAP_LVSM_H
+
+#include "base/shared.h"
+
+#define GN_LVSM_MAX_LAYERS 16
+
+#define GN_LVSM_UNIFORM 0
+#define GN_LVSM_LLOYD 1
+
+#define GN_LVSM_UNORM16 0
+#define GN_LVSM_FLOAT32 1
+
+struct GnLvsmParams {
+    int layers GN_DEFAULT(4);
+    int splits GN_DEFAULT(GN_LVSM_LLOYD);
+    int iterations GN_DEFAULT(8);
+    float overlap GN_DEFAULT(0.05f);
+    float transition GN_DEFAULT(1.0f);
+    int format GN_DEFAULT(GN_LVSM_UNORM16);
+    int samples GN_DEFAULT(1);
+    int blur GN_DEFAULT(1);
+    int radius GN_DEFAULT(2);
+    int mipmaps GN_DEFAULT(1);
+    int anisotropy GN_DEFAULT(1);
+    int slope_moment GN_DEFAULT(1);
+    float min_deviation GN_DEFAULT(0.01f);
+    float bleeding GN_DEFAULT(0.2f);
+};
+
+#endif
