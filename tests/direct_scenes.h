@@ -189,6 +189,11 @@ inline Comparison judge(const Scene& scene, const FrameResult& frame, std::size_
     Comparison result;
     const std::vector<float>& seen = frame.visibility[light].values;
     for (std::size_t i = 0; i < seen.size(); ++i) {
+        // Whether a sample faces the light is rounding's choice where its plane holds the light.
+        const vec3 p_ws(samples.position_ws[i]), n_ws(samples.normal_ws[i]);
+        if (std::abs(glm::dot(n_ws, gn_to_light(scene.lights[light].shape, p_ws))) < 1e-5F) {
+            continue;
+        }
         if (traced.counted[i] == 0) {
             EXPECT_EQ(seen[i], 0.0F) << "an uncounted sample at pixel " << i % samples.width << ", "
                                      << i / samples.width;
@@ -201,10 +206,9 @@ inline Comparison judge(const Scene& scene, const FrameResult& frame, std::size_
         ++result.judged;
         ++(traced.visibility[i] > 0.5F ? result.lit : result.shadowed);
         if (seen[i] != traced.visibility[i]) {
-            const vec4 p = samples.position_ws[i];
             if (result.wrong++ == 0) {
                 result.first = fmt::format("pixel {}, {}: V = {}, traced {}, at ({}, {}, {})", i % samples.width,
-                                           i / samples.width, seen[i], traced.visibility[i], p.x, p.y, p.z);
+                                           i / samples.width, seen[i], traced.visibility[i], p_ws.x, p_ws.y, p_ws.z);
             }
         }
     }

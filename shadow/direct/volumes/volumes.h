@@ -12,7 +12,8 @@
 struct GnVolumesParams {
     int masked GN_DEFAULT(GN_VOLUMES_OPAQUE);  ///< alpha-masked casters: whole polygons, or nothing
     int closed GN_DEFAULT(1);                  ///< 1: a solid casts with one side of its surface only
-    int culling GN_DEFAULT(1);                 ///< 1: components whose shadow cannot be seen are left out
+    int exact GN_DEFAULT(1);    ///< 1: samples at the very border of a surface are told from their shadow
+    int culling GN_DEFAULT(1);  ///< 1: components whose shadow cannot be seen are left out
 };
 
 // How a component of the mesh casts.
@@ -24,11 +25,13 @@ struct GnVolumesParams {
 // What every pass of one light knows.
 struct GnVolumesFrame {
     mat4 cs_from_ws;
+    vec4 eye_ws;    ///< xyz; w: metres that a pixel spans at a distance of 1 m
     vec4 light_ws;  ///< w = 1: a point; w = 0: the direction towards it
     uint triangles;
     uint edges;
     uint opaque_triangles;  ///< slots of the list of caps that opaque triangles have; masked ones follow
     uint corners;           ///< vertices of a side: 3 where the far end is one point, else 6
+    float snap;             ///< pixels by which the rasterizer may move an edge
 };
 
 #endif

@@ -5,6 +5,7 @@
 #include "shadow/direct/stage.h"
 #include "shadow/direct/volumes/volumes_passes.h"
 
+#include <cmath>
 #include <map>
 
 namespace gn {
@@ -120,6 +121,16 @@ Casters casters(const Scene& scene, bool skip_masked) {
     return found;
 }
 
+// The rasterizer rounds vertices to a grid of 2^-bits pixels: an edge moves by half a step along each axis at most.
+// Twice that, so that rounding of the depths is covered too.
+float snap_pixels(Device& device) {
+    return std::ldexp(2.0F, -static_cast<int>(device.properties().limits.subPixelPrecisionBits));
+}
+
+float pixel_metres(const ViewSamples& samples) {
+    return 2.0F * std::tan(0.5F * samples.camera.yfov) / static_cast<float>(samples.height);
+}
+
 EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, bool skip_masked, std::uint64_t key) {
     static GeometryCache<EdgeList> cache;
     EdgeBuffers made;
@@ -177,11 +188,13 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
+                     .eye_ws = vec4(input.samples.camera.position_ws, pixel_metres(input.samples)),
                      .light_ws = light_ws,
                      .triangles = static_cast<uint>(input.scene.triangles.size()),
                      .edges = static_cast<uint>(scene.list->edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
-                     .corners = light_ws.w > 0.0F ? 6U : 3U};
+                     .corners = light_ws.w > 0.0F ? 6U : 3U,
+                     .snap = snap_pixels(input.device)};
 
     // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.
     const VkDeviceSize triangles = buffers.frame.triangles;

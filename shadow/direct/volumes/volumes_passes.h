@@ -39,7 +39,7 @@ void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
 /// Sums the triangles around every edge and lists the sides.
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
 /// Counts in the stencil how many volumes hold each view sample.
-void add_stencil(const FrameInput& input, const VolumeBuffers& buffers);
+void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, const GnVolumesParams& params);
 /// V = 1 where the count is zero and the sample counts for the light.
 Visibility add_stencil_resolve(const FrameInput& input);
 

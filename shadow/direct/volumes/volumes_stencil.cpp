@@ -15,19 +15,44 @@ layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Edges { uvec2 edges[]; };
 layout(binding = 3, scalar) readonly buffer Sides { uint sides[]; };
+layout(location = 0) flat out vec3 a_ws;
+layout(location = 1) flat out vec3 b_ws;
+layout(location = 2) flat out vec2 depths;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
     uint side = sides[uint(gl_VertexIndex) / u.frame.corners];
     uint corner = uint(gl_VertexIndex) % u.frame.corners;
-    // From outside the side is a, a at infinity, b at infinity, b; the sun has one point at infinity for both.
     uvec2 edge = edges[side >> 1];
-    edge = (side & 1u) != 0u ? edge.yx : edge;
+    a_ws = positions[edge.x];
+    b_ws = positions[edge.y];
+    // From outside the side is a, a at infinity, b at infinity, b; the sun has one point at infinity for both.
+    bool turned = (side & 1u) != 0u;
     bool second = u.frame.corners == 3u ? corner == 2u : corner == 2u || corner >= 4u;
     bool far = u.frame.corners == 3u ? corner == 1u : corner == 1u || corner == 2u || corner == 4u;
-    vec3 p_ws = positions[second ? edge.y : edge.x];
+    vec3 p_ws = second != turned ? b_ws : a_ws;
     gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+    // The first corner of a triangle tells the fragments.
+    depths = corner % 3u == 0u ? gn_volumes_side_depths(u.frame, a_ws, b_ws) : vec2(0.0);
+}
+)";
+
+constexpr const char* behind_text = R"(
+#include "shadow/direct/volumes/volumes.glsl"
+layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
+layout(binding = 4) uniform sampler2D position_ws;
+layout(binding = 5) uniform sampler2D normal_ws;
+layout(location = 0) flat in vec3 a_ws;
+layout(location = 1) flat in vec3 b_ws;
+layout(location = 2) flat in vec2 depths;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 p_ws = texelFetch(position_ws, pixel, 0).xyz;
+    if (!gn_volumes_behind(u.frame, p_ws, a_ws, b_ws, clamp(gl_FragCoord.z, depths.x, depths.y)) &&
+        !gn_volumes_touches(u.frame, p_ws, texelFetch(normal_ws, pixel, 0).xyz, a_ws, b_ws)) {
+        discard;
+    }
 }
 )";
 
@@ -93,6 +118,16 @@ RasterDesc volume_pipeline(const char* name, const char* text, VkCompareOp compa
     return desc;
 }
 
+// Sides are compared by the fragment shader, which knows when a sample touches the side's own edge, or by the depth test.
+RasterDesc side_pipeline(bool exact) {
+    RasterDesc desc =
+        volume_pipeline("volume-side.vert", side_text, exact ? VK_COMPARE_OP_NEVER : VK_COMPARE_OP_GREATER, false);
+    if (exact) {
+        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-behind.frag", behind_text};
+    }
+    return desc;
+}
+
 RasterDesc cap_pipeline(bool masked, bool turned) {
     RasterDesc desc =
         volume_pipeline("volume-cap.vert", cap_text, masked ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_NEVER, turned);
@@ -100,31 +135,23 @@ RasterDesc cap_pipeline(bool masked, bool turned) {
     return desc;
 }
 
-RasterDesc stencil_clear() {
-    const auto zero = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_ZERO, VK_STENCIL_OP_ZERO);
-    RasterDesc desc;
-    desc.vertex = fullscreen_vertex_shader();
-    desc.stencil = StencilOps{zero, zero};
-    return desc;
-}
-
 }  // namespace
 
-void add_stencil(const FrameInput& input, const VolumeBuffers& buffers) {
+void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, const GnVolumesParams& params) {
+    const ViewSamples& samples = input.samples;
     input.graph.add_pass(
         "volumes: stencil",
         [&](PassBuilder& pass) {
-            pass.depth_read_only(input.samples.depth);
+            pass.depth_read_only(samples.depth, {0, 1, 0, 1}, 0);
+            pass.sample(samples.position);
+            pass.sample(samples.normal);
             for (const BufferHandle read :
                  {input.handles.positions, input.handles.indices, buffers.edges, buffers.sides, buffers.caps}) {
                 pass.storage_read(read);
             }
             pass.indirect(buffers.draws);
         },
-        [buffers, handles = input.handles](Recorder& r) {
-            // Forget what another light has counted.
-            r.bind(stencil_clear());
-            r.draw(3);
+        [buffers, samples, handles = input.handles, exact = params.exact != 0](Recorder& r) {
             const auto bind = [&](const RasterDesc& desc) {
                 r.bind(desc);
                 r.set_value("u", buffers.frame);
@@ -134,7 +161,9 @@ void add_stencil(const FrameInput& input, const VolumeBuffers& buffers) {
                 r.set("Sides", buffers.sides);
                 r.set("Caps", buffers.caps);
             };
-            bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_GREATER, false));
+            bind(side_pipeline(exact));
+            r.set("position_ws", samples.position);
+            r.set("normal_ws", samples.normal);
             r.draw_indirect(buffers.draws, 0);
             for (const unsigned list : {0U, 1U, 2U, 3U}) {
                 bind(cap_pipeline(list >= 2, list % 2 == 1));
