@@ -3,6 +3,7 @@
 
 #include "apps/output.h"
 #include "base/param.h"
+#include "shadow/lookup/show.h"
 
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
@@ -23,6 +24,7 @@ constexpr const char* examples = R"(Examples:
   gnomon list recipes                              what can be compared
   gnomon show pcf                                  a technique's manual page and parameters
   gnomon render model.glb -r pcf -o model.png      one picture with shadows
+  gnomon render corridor -r pcf,placement=cascades --show texels -o texels.png
   gnomon compare courtyard -r hard -r pcf,resolution=2048,pcf.taps=25 -o report
   gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
   gnomon doctor                                    what this machine's driver can do
@@ -36,6 +38,7 @@ constexpr const char* compare_examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
   gnomon compare fence corridor -r hard -r hard,resolution=4096 --json figures.json
   gnomon compare car.glb -r pcf --light sun --samples 1024 --size 1280x720 -o report
+  gnomon compare corridor -r pcf,placement=cascades -r pcf,placement=fit --path walk -o report
 
 Results are kept in DIR/results as soon as they are measured: the same command again only measures what is missing.
 A run is ok when it served at least one light; a light that it refused has status and reason of its own.)";
@@ -63,6 +66,16 @@ std::string quoted_command(int argc, char** argv) {
     return line;
 }
 
+/// "view, texels or bias" of all pictures of the hidden.
+std::string known_pictures() {
+    std::string names;
+    const auto pictures = hidden_pictures();
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        names += std::string(i == 0 ? "" : i + 1 == pictures.size() ? " or " : ", ") + std::string(pictures[i].name);
+    }
+    return names;
+}
+
 /// Everything that CLI11 writes into, for the length of one parse.
 struct Parser {
     CLI::App app{description, "gnomon"};
@@ -71,6 +84,7 @@ struct Parser {
     RenderOptions render;
     CompareOptions compare;
     std::string render_size, compare_size;
+    CLI::Option* path = nullptr;
     bool verbose = false;
 
     Parser() {
@@ -104,6 +118,9 @@ struct Parser {
         command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", render.view, "Name of the camera (default: the first)");
         command->add_option("--visibility", render.visibility, "Also write V as .exr, one channel a light");
+        command->add_option("--show", render.show,
+                            "Instead of the picture, what the recipe hides: " + known_pictures());
+        command->add_option("--light", render.light, "The light that --show is of (default: the first)");
         command->add_flag("--strict", render.strict, "A light that is refused ends with exit status 1");
         command->add_flag("--validate", render.validate, "Validation layers on; a message ends with exit status 1");
     }
@@ -119,6 +136,13 @@ struct Parser {
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
+        path =
+            command
+                ->add_option("--path", compare.path,
+                             "Also follow this camera path for flicker: a frame and a truth for each of its cameras; "
+                             "without NAME the scene's first")
+                ->type_name("[NAME]")
+                ->expected(0, 1);
         command->add_option("--samples", compare.samples, "Of the light, for the truth (default: 256)")
             ->check(CLI::Range(1, 1 << 20));
         command->add_option("--repeat", compare.repeat, "Timed frames after one that warms up (default: 5)")
@@ -216,6 +240,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     if (name == "compare") {
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
         parser.compare.command = quoted_command(argc, argv);
+        parser.compare.follow_path = parser.path->count() > 0;
         if (parser.compare.folder.empty() && parser.compare.json.empty()) {
             parser.compare.folder = "report";
         }

@@ -46,6 +46,7 @@ struct ShowOptions {
 
 struct RenderOptions {
     std::string scene, recipe = "pcf", output = "out.png", view, visibility;
+    std::string show, light;  ///< a picture of the hidden and the light that it is of; "" where not asked for
     Size size;
     bool strict = false, validate = false;
 };
@@ -53,6 +54,8 @@ struct RenderOptions {
 struct CompareOptions {
     std::vector<std::string> scenes, recipes;
     std::string folder, json, view, light;  ///< "" where not asked for
+    bool follow_path = false;
+    std::string path;  ///< name of the camera path to follow; "" is the scene's first
     Size size;
     int samples = 256, repeat = 5, threads = 0;
     bool strict = false, validate = false, fresh = false;

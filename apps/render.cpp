@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // One picture: load, render, tone-map, write.
+#include "apps/choose.h"
 #include "apps/options.h"
 #include "apps/output.h"
 #include "apps/terminal.h"
 #include "shadow/frame.h"
+#include "shadow/lookup/show.h"
 #include "shadow/shading/tonemap.h"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 namespace gn {
@@ -21,6 +24,12 @@ void check_extensions(const RenderOptions& options) {
     }
     if (!options.visibility.empty() && std::filesystem::path(options.visibility).extension() != ".exr") {
         throw InputError(fmt::format("--visibility {}: the file's name must end in .exr", options.visibility));
+    }
+    if (options.show.empty() && !options.light.empty()) {
+        throw InputError(fmt::format("--light {}: it names the light of --show, which is not given", options.light));
+    }
+    if (!options.show.empty() && !options.visibility.empty()) {
+        throw InputError("--visibility: it cannot be written together with --show; run the command once for each");
     }
     check_writable_parent("-o", options.output);
     check_writable_parent("--visibility", options.visibility);
@@ -55,22 +64,52 @@ std::size_t report_refusals(const Scene& scene, const FrameResult& frame) {
     return refused;
 }
 
+/// Writes one picture of the hidden, or as .exr the values behind it, and says what its colours mean.
+int show(const RenderOptions& options, Device& device, const Scene& scene, const Camera& camera, const Recipe& recipe,
+         std::size_t light, Progress& progress) {
+    SceneGpu gpu = upload_scene(device, scene);
+    HiddenOptions hidden;
+    hidden.width = static_cast<uint>(options.size.width);
+    hidden.height = static_cast<uint>(options.size.height);
+    hidden.light = light;
+    const Shown shown = show_hidden(device, gpu, camera, recipe, {&options.show, 1}, hidden).front();
+    if (std::filesystem::path(options.output).extension() == ".exr") {
+        const std::array<std::string, 2> names{options.show, "state"};
+        write_exr(options.output, shown.values, shown.values.channels == 2 ? names : std::span<const std::string>{});
+    } else {
+        write_png(options.output, shown.picture);
+    }
+    progress.clear();
+    fmt::print("{}: {} of light '{}' in {} with {}\n{}\n", options.output, options.show, scene.lights.at(light).name,
+               scene.name, recipe.name, shown.legend);
+    for (const std::string& message : device.messages()) {
+        fmt::print(stderr, "gnomon: validation: {}\n", message);
+    }
+    return device.messages().empty() ? exit_done : exit_failed;
+}
+
 }  // namespace
 
 int run(const RenderOptions& options) {
     // Everything that the user may have got wrong is found before the first pixel.
     check_extensions(options);
+    reading([&] { options.show.empty() ? void() : void(find_hidden(options.show)); });
     Progress progress;
     progress.step(0, 3, "reading " + options.scene);
     const Recipe recipe = reading([&] { return load_recipe(options.recipe); });
     const Scene scene = reading([&] { return load_scene(options.scene); });
     const Camera camera = reading([&] { return scene.camera(options.view); });
+    const std::size_t light =
+        reading([&] { return options.light.empty() ? std::size_t{0} : find_light(scene, options.light); });
     for (const std::string& note : scene.notes) {
         spdlog::info("{}: {}", options.scene, note);
     }
     // Draw the frame.
     progress.step(1, 3, fmt::format("drawing {} with {}", options.scene, recipe.name));
     const std::unique_ptr<Device> device = Device::create({.validation = options.validate});
+    if (!options.show.empty()) {
+        return show(options, *device, scene, camera, recipe, light, progress);
+    }
     SceneGpu gpu = upload_scene(*device, scene);
     FrameOptions frame_options;
     frame_options.width = static_cast<uint>(options.size.width);

@@ -66,6 +66,13 @@ void add_scene(Hasher& hasher, const Scene& scene) {
     }
 }
 
+/// A camera by its fields: between them there may be padding.
+void add_camera(Hasher& hasher, const Camera& camera) {
+    hasher.text(camera.name).bytes(&camera.position_ws, sizeof camera.position_ws);
+    hasher.bytes(&camera.forward_ws, sizeof camera.forward_ws).bytes(&camera.up_ws, sizeof camera.up_ws);
+    hasher.value(camera.yfov).value(camera.near).value(camera.far);
+}
+
 std::size_t pixels(int width, int height) {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
@@ -87,14 +94,16 @@ ResultCache::ResultCache(fs::path folder, bool fresh, const CompareOptions& opti
     }
 }
 
-std::string ResultCache::view_key(const Scene& scene, const std::string& asked, const Camera& camera) const {
+std::string ResultCache::view_key(const Scene& scene, const std::string& asked, const Camera& camera,
+                                  const CameraPath* path) const {
     Hasher hasher;
     hasher.text(stamp_).text(asked).text(light_);
     hasher.value(width_).value(height_).value(samples_).value(repeat_).value(threads_).value(validate_);
-    // The camera by its fields: between them there may be padding.
-    hasher.text(camera.name).bytes(&camera.position_ws, sizeof camera.position_ws);
-    hasher.bytes(&camera.forward_ws, sizeof camera.forward_ws).bytes(&camera.up_ws, sizeof camera.up_ws);
-    hasher.value(camera.yfov).value(camera.near).value(camera.far);
+    add_camera(hasher, camera);
+    hasher.value(path != nullptr ? path->frames.size() : 0);
+    for (const Camera& frame : path != nullptr ? path->frames : std::vector<Camera>{}) {
+        add_camera(hasher, frame);
+    }
     add_scene(hasher, scene);
     return hasher.finish().hex();
 }
@@ -139,6 +148,9 @@ std::optional<RunResult> ResultCache::find_run(const std::string& key) const {
         bool complete = picture_exists(run.picture) && picture_exists(run.error_map);
         for (const LightResult& light : run.lights) {
             complete = complete && picture_exists(light.error_map);
+        }
+        for (const InsideResult& shown : run.inside) {
+            complete = complete && picture_exists(shown.picture);
         }
         return complete ? std::optional<RunResult>(std::move(run)) : std::nullopt;
     } catch (const std::exception& error) {

@@ -20,7 +20,8 @@ class ResultCache {
     /// An empty folder turns the cache off; `fresh` only writes.
     ResultCache(std::filesystem::path folder, bool fresh, const CompareOptions& options, const DeviceInfo& device);
 
-    [[nodiscard]] std::string view_key(const Scene& scene, const std::string& asked, const Camera& camera) const;
+    [[nodiscard]] std::string view_key(const Scene& scene, const std::string& asked, const Camera& camera,
+                                       const CameraPath* path) const;
     [[nodiscard]] std::string run_key(const std::string& view_key, const Recipe& recipe) const;
     /// The truth depends on the very samples that were rendered.
     [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples,

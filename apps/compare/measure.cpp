@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/measure.h"
 
+#include "apps/compare/path.h"
 #include "apps/compare/pictures.h"
 #include "apps/output.h"
+#include "shadow/lookup/show.h"
 #include "shadow/shading/tonemap.h"
 
 #include <algorithm>
@@ -38,6 +40,7 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
                     shell_word(recipe), options.size.width, options.size.height, options.samples, options.repeat);
     command += options.view.empty() ? "" : " --view " + shell_word(options.view);
     command += options.light.empty() ? "" : " --light " + shell_word(options.light);
+    command += !options.follow_path ? "" : options.path.empty() ? " --path" : " --path " + shell_word(options.path);
     return command + (options.validate ? " --validate" : "") + " -o report";
 }
 
@@ -124,6 +127,26 @@ void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const Fra
     run.picture = names.write("picture", technique);
 }
 
+/// Pictures of what the recipe hides, for the first light that it served.
+void show_inside(RunResult& run, ViewSession& view, Bench& bench, const Recipe& recipe, const std::vector<bool>& served,
+                 const PictureNames& names) {
+    if (names.folder.empty() || recipe.map == nullptr) {
+        return;
+    }
+    HiddenOptions options;
+    options.width = static_cast<uint>(run.width);
+    options.height = static_cast<uint>(run.height);
+    options.light = static_cast<std::size_t>(std::find(served.begin(), served.end(), true) - served.begin());
+    std::vector<std::string> asked;
+    for (const HiddenPicture& picture : hidden_pictures()) {
+        asked.emplace_back(picture.name);
+    }
+    for (const Shown& shown : show_hidden(bench.device(), view.gpu(bench), view.camera(), recipe, asked, options)) {
+        run.inside.push_back({shown.name, view.scene().lights[options.light].name,
+                              names.write(shown.name, shown.picture), shown.legend, find_hidden(shown.name).of_view});
+    }
+}
+
 void account(RunResult& run, const FrameResult& frame) {
     run.shadow = spread_of(frame.shadow_ms);
     run.frame = spread_of(frame.frame_ms);
@@ -197,6 +220,10 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     }
     measure_pictures(run, view, bench, frame, served, names);
     account(run, frame);
+    show_inside(run, view, bench, asked.recipe, served, names);
+    if (view.path() != nullptr) {
+        measure_path(run, view, bench, asked.recipe);
+    }
 
     // What the validation layers say makes every figure doubtful.
     const std::vector<std::string>& messages = bench.device().messages();

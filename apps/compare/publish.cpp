@@ -70,8 +70,14 @@ void write_report(const fs::path& folder, const Comparison& comparison) {
 }
 
 std::string summary_table(const Comparison& comparison) {
-    const std::vector<std::string> header{"scene", "recipe",   "status", "rmse",      "mismatch", "leak",
-                                          "acne",  "penumbra", "flip",   "shadow ms", "frame ms", "memory"};
+    std::vector<std::string> header{"scene", "recipe",   "status", "rmse",      "mismatch", "leak",
+                                    "acne",  "penumbra", "flip",   "shadow ms", "frame ms", "memory"};
+    // A column for flicker only where a path was followed.
+    const bool path = std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                                  [](const RunResult& run) { return !run.path.empty(); });
+    if (path) {
+        header.insert(header.begin() + 9, "flicker");
+    }
     std::vector<std::vector<std::string>> rows;
     for (const RunResult& run : comparison.runs) {
         const Errors& e = run.errors;
@@ -79,6 +85,9 @@ std::string summary_table(const Comparison& comparison) {
                         status_of(run), figure(e.rmse), figure(e.mismatch), figure(e.leak), figure(e.acne),
                         figure(e.penumbra), figure(e.flip), milliseconds(run.shadow.median),
                         milliseconds(run.frame.median), run.status == "ok" ? human_bytes(run.bytes) : "-"});
+        if (path) {
+            rows.back().insert(rows.back().begin() + 9, figure(e.flicker));
+        }
     }
     return text_table(header, rows, 3);
 }

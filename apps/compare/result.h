@@ -39,6 +39,12 @@ struct ResourceResult {
     std::uint64_t bytes = 0;
 };
 
+/// A picture of what a recipe hides.
+struct InsideResult {
+    std::string name, light, picture, legend;
+    bool of_view = true;  ///< as large as the view
+};
+
 /// One recipe on one view of one scene. `status` is ok when at least one light was served; lights that were refused
 /// say so themselves. It is refused when every light was, and failed when no figure can be trusted.
 struct RunResult {
@@ -55,6 +61,9 @@ struct RunResult {
     // For the report only.
     std::string title, citation, paragraph, picture, error_map, command;
     std::vector<std::pair<std::string, std::string>> parameters;
+    std::vector<InsideResult> inside;
+    std::string path;                                 ///< the camera path that was followed, or ""
+    std::vector<std::optional<double>> path_flicker;  ///< of each of its steps, served lights pooled
 };
 
 struct LightInfo {

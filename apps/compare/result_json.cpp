@@ -11,11 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The errors of a run, in the contract's order; `flicker` needs a camera path and is not among them.
-bool in_contract(const MetricInfo& metric) {
-    return metric.name != "flicker";
-}
-
 ordered_json number(std::optional<double> value) {
     return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
@@ -27,9 +22,7 @@ std::optional<double> optional_number(const ordered_json& json) {
 ordered_json errors_json(const Errors& errors) {
     ordered_json json = ordered_json::object();
     for (const MetricInfo& metric : all_metrics()) {
-        if (in_contract(metric)) {
-            json[std::string(metric.name)] = number(errors.*metric.value);
-        }
+        json[std::string(metric.name)] = number(errors.*metric.value);
     }
     return json;
 }
@@ -38,9 +31,7 @@ Errors errors_from(const ordered_json& json, std::size_t samples) {
     Errors errors;
     errors.samples = samples;
     for (const MetricInfo& metric : all_metrics()) {
-        if (in_contract(metric)) {
-            errors.*metric.value = optional_number(json.at(std::string(metric.name)));
-        }
+        errors.*metric.value = optional_number(json.at(std::string(metric.name)));
     }
     return errors;
 }
@@ -91,6 +82,19 @@ void add_report_fields(ordered_json& json, const RunResult& run) {
     json["parameters"] = ordered_json::array();
     for (const auto& [name, value] : run.parameters) {
         json["parameters"].push_back({{"name", name}, {"value", value}});
+    }
+    json["inside"] = ordered_json::array();
+    for (const InsideResult& shown : run.inside) {
+        json["inside"].push_back({{"name", shown.name},
+                                  {"light", shown.light},
+                                  {"picture", shown.picture},
+                                  {"legend", shown.legend},
+                                  {"of_view", shown.of_view}});
+    }
+    json["path"] = run.path;
+    json["path_flicker"] = ordered_json::array();
+    for (const std::optional<double>& step : run.path_flicker) {
+        json["path_flicker"].push_back(number(step));
     }
 }
 
@@ -206,6 +210,14 @@ RunResult run_from_json(const ordered_json& json) {
     for (const ordered_json& parameter : json.at("parameters")) {
         run.parameters.emplace_back(parameter.at("name"), parameter.at("value"));
     }
+    for (const ordered_json& shown : json.at("inside")) {
+        run.inside.push_back(
+            {shown.at("name"), shown.at("light"), shown.at("picture"), shown.at("legend"), shown.at("of_view")});
+    }
+    run.path = json.at("path");
+    for (const ordered_json& step : json.at("path_flicker")) {
+        run.path_flicker.push_back(optional_number(step));
+    }
     return run;
 }
 
@@ -234,9 +246,7 @@ ordered_json report_json(const Comparison& comparison) {
     }
     json["metrics"] = ordered_json::array();
     for (const MetricInfo& metric : all_metrics()) {
-        if (in_contract(metric)) {
-            json["metrics"].push_back({{"name", metric.name}, {"sentence", metric.sentence}});
-        }
+        json["metrics"].push_back({{"name", metric.name}, {"sentence", metric.sentence}});
     }
     return json;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/session.h"
 
+#include "apps/choose.h"
 #include "apps/output.h"
 #include "shadow/shading/tonemap.h"
 
@@ -22,17 +23,6 @@ LightInfo describe(const Light& light) {
         size = fmt::format("radius {:.3g} m", shape.radius);
     }
     return {light.name, std::string(kinds.at(shape.kind)), size};
-}
-
-int find_light(const Scene& scene, const std::string& name) {
-    std::vector<std::string_view> known;
-    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-        if (scene.lights[l].name == name) {
-            return static_cast<int>(l);
-        }
-        known.push_back(scene.lights[l].name);
-    }
-    fail("--light: scene '{}' has no light '{}'; {}", scene.name, name, suggest(name, known));
 }
 
 Image as_image(const std::vector<float>& values, const Size& size) {
@@ -63,7 +53,8 @@ ViewSession::ViewSession(const std::string& asked, const CompareOptions& options
     reading([&] {
         scene_ = std::make_unique<Scene>(load_scene(asked));
         camera_ = scene_->camera(options.view);
-        only_light_ = options.light.empty() ? -1 : find_light(*scene_, options.light);
+        only_light_ = options.light.empty() ? -1 : static_cast<int>(find_light(*scene_, options.light));
+        path_ = options.follow_path ? &find_path(*scene_, options.path) : nullptr;
     });
     truth_.resize(scene_->lights.size());
     result.scene = asked;
@@ -81,7 +72,7 @@ ViewSession::ViewSession(const std::string& asked, const CompareOptions& options
 }
 
 void ViewSession::name_in(const ResultCache& cache) {
-    key_ = cache.view_key(*scene_, result.scene, camera_);
+    key_ = cache.view_key(*scene_, result.scene, camera_, path_);
     if (const auto known = cache.find_reference(key_)) {
         result.reference = *known;
     }
@@ -102,17 +93,33 @@ bool ViewSession::prepare(Bench& bench, const ResultCache& cache, Progress& prog
         samples_ = render_samples(bench.device(), gpu(bench), camera_, static_cast<uint>(options_.size.width),
                                   static_cast<uint>(options_.size.height));
     }
-    if (!trace_lights(cache, progress)) {
+    if (!trace_lights(cache, progress) || !trace_path(bench, cache, progress)) {
         return false;
     }
+    tracer_.reset();
     account(cache, bench);
     ready_ = true;
     return true;
 }
 
+TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
+                                  const std::function<void(double)>& progress) {
+    const std::string key = cache.truth_key(key_, samples, light);
+    std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height);
+    if (!truth) {
+        // The acceleration structure is built only when something is not in the cache.
+        if (!tracer_) {
+            tracer_.emplace(*scene_);
+        }
+        truth = tracer_->trace(samples.position_ws, samples.normal_ws, scene_->lights[light].shape,
+                               {.samples = options_.samples, .threads = options_.threads}, progress);
+        cache.store(key, *truth, options_.size.width, options_.size.height);
+    }
+    truth->standard_error = {};
+    return std::move(*truth);
+}
+
 bool ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
-    // The acceleration structure is built only when a light is not in the cache.
-    std::optional<Truth> tracer;
     const auto count = static_cast<double>(result.lights.size());
     double done = 0;
     for (std::size_t l = 0; l < truth_.size(); ++l) {
@@ -122,19 +129,32 @@ bool ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
         if (stop_requested()) {
             return false;
         }
-        const std::string key = cache.truth_key(key_, samples_, l);
-        truth_[l] = cache.find_truth(key, options_.size.width, options_.size.height);
-        if (!truth_[l]) {
-            if (!tracer) {
-                tracer.emplace(*scene_);
-            }
-            truth_[l] = tracer->trace(samples_.position_ws, samples_.normal_ws, scene_->lights[l].shape,
-                                      {.samples = options_.samples, .threads = options_.threads},
-                                      [&](double part) { progress.within((done + part) / count); });
-            cache.store(key, *truth_[l], options_.size.width, options_.size.height);
-        }
-        truth_[l]->standard_error = {};
+        truth_[l] = truth_of(cache, samples_, l, [&](double part) { progress.within((done + part) / count); });
         done += 1;
+    }
+    return true;
+}
+
+bool ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& progress) {
+    const std::size_t frames = path_ != nullptr ? path_->frames.size() : 0;
+    while (path_truth_.size() < frames) {
+        const std::size_t frame = path_truth_.size();
+        progress.within(static_cast<double>(frame) / static_cast<double>(frames));
+        const CpuSamples samples =
+            render_samples(bench.device(), gpu(bench), path_->frames[frame], static_cast<uint>(options_.size.width),
+                           static_cast<uint>(options_.size.height));
+        std::vector<PathTruth> lights(truth_.size());
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            if (stop_requested()) {
+                return false;
+            }
+            if (wanted(l)) {
+                TruthResult truth = truth_of(cache, samples, l, {});
+                path_seconds_ += truth.seconds;
+                lights[l] = {std::move(truth.visibility), std::move(truth.counted)};
+            }
+        }
+        path_truth_.push_back(std::move(lights));
     }
     return true;
 }
@@ -144,6 +164,7 @@ void ViewSession::account(const ResultCache& cache, Bench& bench) {
     ReferenceResult& reference = result.reference;
     reference = {};
     reference.samples = options_.samples;
+    reference.seconds = path_seconds_;
     for (const auto& truth : truth_) {
         if (truth) {
             reference.seconds += truth->seconds;

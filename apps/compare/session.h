@@ -28,6 +28,12 @@ class Bench {
     std::unique_ptr<Device> device_;
 };
 
+/// The truth of one light in one frame of a path.
+struct PathTruth {
+    std::vector<float> visibility;
+    std::vector<std::uint8_t> counted;
+};
+
 class ViewSession {
   public:
     /// Loads the scene and finds the view and the light that are asked for. Throws InputError.
@@ -49,6 +55,10 @@ class ViewSession {
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const TruthResult& truth(std::size_t light) const { return *truth_.at(light); }
+    [[nodiscard]] const CameraPath* path() const { return path_; }  ///< null where none is followed
+    [[nodiscard]] const PathTruth& path_truth(std::size_t frame, std::size_t light) const {
+        return path_truth_.at(frame).at(light);
+    }
     [[nodiscard]] const Image& reference_picture() const { return picture_; }
     [[nodiscard]] float exposure() const { return exposure_; }
     [[nodiscard]] int only_light() const { return only_light_; }  ///< index, or -1 for all
@@ -60,6 +70,10 @@ class ViewSession {
 
   private:
     bool trace_lights(const ResultCache& cache, Progress& progress);
+    bool trace_path(Bench& bench, const ResultCache& cache, Progress& progress);
+    /// From the cache, or traced.
+    TruthResult truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
+                         const std::function<void(double)>& progress);
     void account(const ResultCache& cache, Bench& bench);
     const CompareOptions& options_;
     std::unique_ptr<Scene> scene_;
@@ -68,7 +82,11 @@ class ViewSession {
     std::string key_;
     std::optional<SceneGpu> gpu_;
     CpuSamples samples_;
+    std::optional<Truth> tracer_;  ///< made for the first light that is not in the cache
     std::vector<std::optional<TruthResult>> truth_;
+    const CameraPath* path_ = nullptr;
+    std::vector<std::vector<PathTruth>> path_truth_;  ///< per frame and light
+    double path_seconds_ = 0;
     Image picture_;
     float exposure_ = 1;
     bool ready_ = false;

@@ -89,7 +89,9 @@ function sortableTable(caption, columns, rows, groupOf = () => '') {
     el('table', {'aria-label': caption}, el('thead', {}, el('tr', {}, heads)), body));
 }
 
-const metricColumns = of => data.metrics.map(metric => ({
+// Flicker needs a camera path; without one it has no column.
+const metrics = data.metrics.filter(metric => metric.name !== 'flicker' || data.runs.some(run => run.path));
+const metricColumns = of => metrics.map(metric => ({
   title: metric.name, hint: metric.sentence, best: metric.name !== 'edge',
   value: row => of(row)[metric.name], show: row => figure(of(row)[metric.name]),
 }));
@@ -130,6 +132,8 @@ function picture(source, description, scene, style) {
 const describeRun = (scene, run) => `${scene.name} with shadows by ${fullName(run)}`;
 const describeError = run => `Signed error of visibility of ${fullName(run)}, rmse ${figure(run.error.rmse)}`;
 
+const describeInside = (run, item) => `${item.name} of ${fullName(run)} for light ${item.light}. ${item.legend}`;
+
 function legend() {
   const ticks = [-1, -0.25, -0.05, 0, 0.05, 0.25, 1];
   const at = value => 50 + 50 * Math.sign(value) * Math.sqrt(Math.abs(value));
@@ -145,7 +149,9 @@ function comparer(scene, runs) {
   if (!scene.reference.picture || !shown.length) return {node: el('span'), choose() {}};
   const choices = [{title: 'traced reference', picture: scene.reference.picture, text: `${scene.name}, traced reference`},
     ...shown.map(run => ({title: fullName(run), picture: run.picture, text: describeRun(scene, run)})),
-    ...shown.filter(run => run.error_map).map(run => ({title: 'error of ' + fullName(run), picture: run.error_map, text: describeError(run)}))];
+    ...shown.filter(run => run.error_map).map(run => ({title: 'error of ' + fullName(run), picture: run.error_map, text: describeError(run)})),
+    ...shown.flatMap(run => run.inside.filter(item => item.of_view && item.picture).map(item => (
+      {title: `${item.name} of ${fullName(run)}`, picture: item.picture, text: describeInside(run, item)})))];
   const below = el('img', {width: scene.size[0], height: scene.size[1]});
   const above = el('img', {width: scene.size[0], height: scene.size[1], class: 'top'});
   const leftTag = el('span', {class: 'tag left'}), rightTag = el('span', {class: 'tag right'});
@@ -223,6 +229,45 @@ function gallery(scene, runs, choose) {
   return el('div', {class: 'gallery'}, cards);
 }
 
+// What the recipes hide: one row of small pictures a run, each a link to the picture itself.
+function insides(runs) {
+  return el('div', {}, runs.filter(run => run.inside.some(item => item.picture)).map(run => el('section', {class: 'inside'},
+    el('h4', {}, nameOf(run), el('small', {}, ` light ${run.inside[0].light}`)),
+    el('div', {class: 'strip'}, run.inside.filter(item => item.picture).map(item => el('figure', {class: 'card'},
+      el('a', {href: item.picture}, el('img', {src: item.picture, alt: describeInside(run, item), loading: 'lazy'})),
+      el('figcaption', {}, el('strong', {}, item.name), el('small', {}, item.legend))))))));
+}
+
+// Flicker over the steps of a camera path: one line a run, all on one scale.
+function pathChart(runs) {
+  const space = 'http://www.w3.org/2000/svg', width = 640, height = 150;
+  const most = Math.max(...runs.flatMap(run => run.path_flicker.filter(value => value !== null)), 1e-9);
+  const part = (tag, attributes, text) => {
+    const node = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    if (text) node.textContent = text;
+    return node;
+  };
+  const svg = part('svg', {viewBox: `0 0 ${width} ${height}`, class: 'path-chart', role: 'img',
+    'aria-label': `Flicker of each step, at most ${figure(most)}: ` + runs.map(run => `${fullName(run)} ${figure(run.error.flicker)}`).join(', ')});
+  svg.append(part('path', {d: `M0 ${height - .5}H${width}M0 .5H${width}`, class: 'rule'}));
+  runs.forEach((run, r) => {
+    const steps = run.path_flicker, at = k => steps.length > 1 ? k * width / (steps.length - 1) : 0;
+    let d = '', pen = 'M';
+    steps.forEach((value, k) => {
+      if (value === null) { pen = 'M'; return; }
+      d += `${pen}${at(k).toFixed(1)} ${((height - 2) * (1 - value / most) + 1).toFixed(1)}`;
+      pen = 'L';
+    });
+    const line = part('path', {d, class: `line hue-${r % 6}`});
+    line.append(part('title', {}, `${fullName(run)}: ${figure(run.error.flicker)}`));
+    svg.append(line);
+  });
+  return el('div', {}, svg,
+    el('div', {class: 'key num'}, el('span', {}, `Steps of the path '${runs[0].path}', one a frame; the scale ends at ${figure(most)}.`),
+      runs.map((run, r) => el('span', {}, el('i', {class: `hue-${r % 6}`}), `${fullName(run)} ${figure(run.error.flicker)}`))));
+}
+
 function timeBars(runs) {
   const most = Math.max(...runs.map(run => run.time_ms.passes.reduce((sum, pass) => sum + pass.median, 0)), 1e-9);
   const rows = runs.flatMap(run => {
@@ -277,6 +322,8 @@ function sceneSection(scene, index) {
     stage.node,
     el('h3', {}, 'Errors and costs'), errorTable(scene, runs),
     el('h3', {}, 'Pictures and signed errors'), legend(), gallery(scene, runs, stage.choose),
+    measured.some(run => run.path_flicker.length) ? [el('h3', {}, 'Flicker along a path'), pathChart(measured.filter(run => run.path_flicker.length))] : null,
+    runs.some(run => run.inside.length) ? [el('h3', {}, 'What the maps hide'), insides(runs)] : null,
     measured.length ? [el('h3', {}, 'Time'), timeBars(measured), el('h3', {}, 'Memory for shadows'), byteBars(measured)] : null,
     el('h3', {}, 'Details'),
     runs.some(run => run.lights.length)
@@ -289,7 +336,7 @@ function overview() {
   if (data.scenes.length < 2) return '';
   const names = [...new Set(data.runs.map(fullName))];
   const find = (name, scene) => data.runs.find(run => run.scene === scene.scene && fullName(run) === name);
-  const choice = el('select', {}, data.metrics.map(metric => el('option', {value: metric.name, title: metric.sentence}, metric.name)),
+  const choice = el('select', {}, metrics.map(metric => el('option', {value: metric.name, title: metric.sentence}, metric.name)),
     el('option', {value: 'time'}, 'shadow ms'));
   const place = el('div');
   function value(name, scene) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "apps/choose.h"
+
+#include "base/error.h"
+#include "base/param.h"
+
+namespace gn {
+
+std::size_t find_light(const Scene& scene, const std::string& name) {
+    std::vector<std::string_view> known;
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        if (scene.lights[l].name == name) {
+            return l;
+        }
+        known.push_back(scene.lights[l].name);
+    }
+    fail("--light: scene '{}' has no light '{}'; {}", scene.name, name, suggest(name, known));
+}
+
+const CameraPath& find_path(const Scene& scene, const std::string& name) {
+    if (scene.paths.empty()) {
+        fail("--path: scene '{}' has no camera path; 'corridor' has one, and .toml scenes may place them", scene.name);
+    }
+    std::vector<std::string_view> known;
+    for (const CameraPath& path : scene.paths) {
+        if (name.empty() || path.name == name) {
+            return path;
+        }
+        known.push_back(path.name);
+    }
+    fail("--path: scene '{}' has no camera path '{}'; {}", scene.name, name, suggest(name, known));
+}
+
+}  // namespace gn

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What the command line names inside a scene.
+#pragma once
+
+#include "shadow/scene/scene.h"
+
+namespace gn {
+
+/// The index of the light that --light names. Throws Error listing the scene's lights.
+std::size_t find_light(const Scene& scene, const std::string& name);
+
+/// The camera path that --path names; "" is the scene's first. Throws Error listing the scene's paths.
+const CameraPath& find_path(const Scene& scene, const std::string& name);
+
+}  // namespace gn

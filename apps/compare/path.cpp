@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/path.h"
+
+#include "shadow/history.h"
+#include "shadow/metrics/flicker.h"
+
+#include <cmath>
+
+namespace gn {
+namespace {
+
+/// What the next frame is held against.
+struct PathFrame {
+    CpuSamples samples;
+    std::vector<std::optional<SignedError>> errors;  ///< one a light; absent where the recipe did not serve it
+    [[nodiscard]] PathView view() const {
+        const Camera& camera = samples.camera;
+        const float aspect = static_cast<float>(samples.width) / static_cast<float>(samples.height);
+        return {static_cast<int>(samples.width), static_cast<int>(samples.height),
+                cs_from_vs(camera, aspect) * vs_from_ws(camera),
+                2 * std::tan(camera.yfov / 2) / static_cast<float>(samples.height), samples.position_ws};
+    }
+};
+
+PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_t index, const RunResult& run,
+               History& history) {
+    FrameOptions options;
+    options.width = static_cast<uint>(run.width);
+    options.height = static_cast<uint>(run.height);
+    options.repeat = 0;
+    options.only_light = view.only_light();
+    options.picture = false;
+    options.history = &history;
+    FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.path()->frames[index], recipe, options);
+    PathFrame kept{std::move(frame.samples), {}};
+    for (std::size_t l = 0; l < frame.visibility.size(); ++l) {
+        kept.errors.emplace_back();
+        if (view.wanted(l) && frame.refused[l].empty()) {
+            const PathTruth& truth = view.path_truth(index, l);
+            kept.errors.back() = signed_error(frame.visibility[l].values, truth.visibility, truth.counted);
+        }
+    }
+    return kept;
+}
+
+}  // namespace
+
+void measure_path(RunResult& run, ViewSession& view, Bench& bench, const Recipe& recipe) {
+    const std::size_t frames = view.path()->frames.size();
+    std::vector<Flicker> of_light(view.scene().lights.size());
+    History history(bench.device());
+    PathFrame before;
+    for (std::size_t k = 0; k < frames; ++k) {
+        PathFrame frame = draw(view, bench, recipe, k, run, history);
+        if (k > 0) {
+            const std::vector<int> same = same_points(before.view(), frame.view());
+            Flicker step;
+            for (std::size_t l = 0; l < of_light.size(); ++l) {
+                if (before.errors[l] && frame.errors[l]) {
+                    const Flicker found = flicker_between(*before.errors[l], *frame.errors[l], same);
+                    of_light[l] += found;
+                    step += found;
+                }
+            }
+            run.path_flicker.push_back(step.root_mean_square());
+        }
+        before = std::move(frame);
+    }
+
+    // All lights pooled as one list of samples.
+    Flicker all;
+    std::size_t at = 0;
+    for (std::size_t l = 0; l < of_light.size(); ++l) {
+        if (view.wanted(l)) {
+            run.lights[at++].errors.flicker = of_light[l].root_mean_square();
+            all += of_light[l];
+        }
+    }
+    run.errors.flicker = all.root_mean_square();
+    run.path = view.path()->name;
+}
+
+}  // namespace gn

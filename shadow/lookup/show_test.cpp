@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Pictures of the hidden against what is known of the views: texels by arithmetic, splits by their formula.
+#include "shadow/lookup/show.h"
+
+#include "shadow/lookup/show.glsl"
+#include "shadow/placement/cascades/cascades.glsl"
+#include "tests/rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace gn {
+namespace {
+
+using test::device;
+
+std::vector<Shown> show(const Scene& scene, const std::string& recipe, const std::vector<std::string>& names,
+                        uint width = 160, uint height = 90) {
+    const test::ValidationGuard guard;
+    SceneGpu gpu = upload_scene(device(), scene);
+    return show_hidden(device(), gpu, scene.camera(""), load_recipe(recipe), names, {.width = width, .height = height});
+}
+
+/// A sun straight down on a level floor that a camera looks down on from `height` metres.
+Scene floor_below(float height) {
+    Scene scene;
+    scene.name = "floor";
+    scene.positions_ws = {vec3(-20, 0, 20), vec3(20, 0, 20), vec3(20, 0, -20), vec3(-20, 0, -20)};
+    scene.normals_ws.assign(4, vec3(0, 1, 0));
+    scene.uvs.assign(4, vec2(0));
+    scene.triangles = {uvec3(0, 1, 2), uvec3(0, 2, 3)};
+    scene.materials.emplace_back();
+    scene.objects.push_back({"floor", 0, 2, 0, {}});
+    Light sun{"sun", {}};
+    sun.shape.kind = GN_LIGHT_DIRECTIONAL;
+    sun.shape.direction_ws = vec4(0, -1, 0, 0);
+    sun.shape.color = vec4(1);
+    scene.lights.push_back(sun);
+    Camera camera;
+    camera.position_ws = vec3(0, height, 0);
+    camera.forward_ws = vec3(0, -1, 0);
+    camera.up_ws = vec3(0, 0, -1);
+    camera.yfov = 1;
+    scene.cameras.push_back(camera);
+    finish_scene(scene);
+    return scene;
+}
+
+TEST(Show, ListsItsNamesWhereOneIsUnknown) {
+    EXPECT_EQ(find_hidden("texels").name, "texels");
+    try {
+        find_hidden("texel");
+        FAIL() << "an unknown name must be refused";
+    } catch (const Error& error) {
+        for (const HiddenPicture& picture : hidden_pictures()) {
+            EXPECT_NE(std::string(error.what()).find(picture.name), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(Show, RefusesRecipesWithoutAMap) {
+    const Scene scene = floor_below(5);
+    for (const char* recipe : {"volumes", "none"}) {
+        EXPECT_THROW(show(scene, recipe, {"view"}), Refusal) << recipe;
+    }
+}
+
+TEST(Show, TexelsOfASingleMapOverAPlaneAreItsShareOfAPixel) {
+    // Seen from h metres straight above, a pixel covers 2 h tan(fov / 2) / rows metres of the floor.
+    constexpr float height = 5;
+    constexpr uint rows = 90;
+    const Scene scene = floor_below(height);
+    const double pixel_ws = 2 * height * std::tan(0.5) / rows;
+    for (const int resolution : {256, 1024}) {
+        const Shown texels =
+            show(scene, fmt::format("pcf,placement=single,resolution={}", resolution), {"texels"}, 160, rows).front();
+        // The single map covers the scene: a square floor of 40 m, and the kernel's reach.
+        const double expected = pixel_ws * resolution / 40;
+        const double found = texels.values.at(80, 45, 0);
+        EXPECT_EQ(texels.values.at(80, 45, 1), 1.0F);
+        EXPECT_NEAR(found / expected, 1, 0.04) << resolution;
+        // Straight above a plane every pixel covers the same square of it.
+        EXPECT_NEAR(texels.values.at(10, 10, 0) / found, 1, 1e-3);
+    }
+}
+
+TEST(Show, TexelsAreThoseOfTheWorseDirection) {
+    // By hand: a pixel of 0.1 m by 0.3 m under a map with a texel every 0.05 m and every 0.2 m.
+    glsl::GnReceiver receiver{};
+    receiver.ddx_ws = vec3(0.1F, 0, 0);
+    receiver.ddy_ws = vec3(0, 0, 0.3F);
+    glsl::GnProjected projected{};
+    projected.texel_ts = 1.0F / 1024;
+    projected.du_ws = vec3(projected.texel_ts / 0.05F, 0, 0);
+    projected.dv_ws = vec3(0, 0, projected.texel_ts / 0.2F);
+    EXPECT_NEAR(glsl::gn_texels_per_pixel(receiver, projected), 1.5, 1e-5);
+
+    // A square map turned by 45 degrees: the pixel's sides are 2 and 6 texels whichever way the texels lie.
+    const float s = std::sqrt(0.5F) / 0.05F * projected.texel_ts;
+    projected.du_ws = vec3(s, 0, s);
+    projected.dv_ws = vec3(-s, 0, s);
+    EXPECT_NEAR(glsl::gn_texels_per_pixel(receiver, projected), 2.0, 1e-5);
+}
+
+TEST(Show, BiasIsTheDistanceThatTheRecipeAsksFor) {
+    // A level floor under a vertical sun: only what points towards the light moves the receiver.
+    const Scene scene = floor_below(5);
+    for (const double metres : {0.01, 0.1}) {
+        const Shown bias =
+            show(scene,
+                 fmt::format("pcf,placement=single,bias.constant=0,bias.normal=0,bias.slope=0,bias.constant_world={}",
+                             metres),
+                 {"bias"})
+                .front();
+        EXPECT_NEAR(bias.values.at(80, 45, 0), metres, 1e-3 * metres + 1e-5);
+    }
+}
+
+TEST(Show, ViewIsTheCascadeByTheSplits) {
+    const Scene scene = load_scene("corridor");
+    const std::string recipe =
+        "pcf,placement=cascades,resolution=256,cascades.count=4,cascades.split=uniform,cascades.distance=100,"
+        "cascades.transition=none,cascades.select=distance,cascades.fit=stable";
+    const Shown view = show(scene, recipe, {"view"}).front();
+
+    // Every held sample's cascade is the one whose slice holds its distance.
+    SceneGpu gpu = upload_scene(device(), scene);
+    const CpuSamples samples = render_samples(device(), gpu, scene.camera(""), 160, 90);
+    const GnCascadesParams params = load_recipe(recipe).of<GnCascadesParams>("cascades");
+    const float near = scene.camera("").near;
+    std::set<int> seen;
+    for (std::size_t i = 0; i < samples.position_ws.size(); ++i) {
+        if (view.values.values[2 * i + 1] < 0) {
+            continue;
+        }
+        const float distance = samples.normal_ws[i].w;
+        int expected = 0;
+        while (expected + 1 < 4 && distance > glsl::gn_cascades_split(params, near, 100, expected + 1)) {
+            ++expected;
+        }
+        ASSERT_EQ(static_cast<int>(view.values.values[2 * i]), expected) << "at " << distance << " m";
+        seen.insert(expected);
+    }
+    EXPECT_GE(seen.size(), 3U);
+}
+
+TEST(Show, ViewNamesTheFaceOfACube) {
+    const Scene scene = load_scene("slab:light=point");
+    const Shown view = show(scene, "pcf", {"view"}).front();
+    // The light hangs above everything that the camera sees right below it: face -y.
+    int down = 0;
+    for (std::size_t i = 0; i < view.values.pixels(); ++i) {
+        down += view.values.values[2 * i + 1] > 0 && view.values.values[2 * i] == 3.0F ? 1 : 0;
+    }
+    EXPECT_GT(down, 500);
+    EXPECT_NE(view.legend.find("-y"), std::string::npos);
+}
+
+/// Distinct grey values of a picture, as 8-bit colours.
+std::size_t colors_of(const Image& picture) {
+    std::set<int> colors;
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+        colors.insert(static_cast<int>(255 * picture.values[3 * i]));
+    }
+    return colors.size();
+}
+
+TEST(Show, LayersShowWhatTheMapHolds) {
+    const Scene scene = load_scene("corridor");
+    for (const char* recipe : {"pcf,placement=cascades", "vsm,placement=cascades"}) {
+        const std::vector<Shown> shown = show(scene, std::string(recipe) + ",resolution=128", {"map", "light-view"});
+        for (const Shown& picture : shown) {
+            EXPECT_GT(colors_of(picture.picture), 20U) << recipe << " " << picture.name;
+        }
+        // Four layers of 128 texels, and one block of them a channel.
+        const Image& map = shown[0].picture;
+        EXPECT_EQ(map.width, 4 * 130 - 2) << recipe;
+        EXPECT_GE(map.height, 128) << recipe;
+        EXPECT_EQ(shown[1].picture.height, 128);
+    }
+}
+
+TEST(Show, TheLightsViewIsBrightWhereSurfacesFaceIt) {
+    const Shown seen = show(floor_below(5), "pcf,placement=single,resolution=64", {"light-view"}).front();
+    // A level floor under a vertical sun: cosine 1 wherever something is seen.
+    int covered = 0;
+    for (std::size_t i = 0; i < seen.values.pixels(); ++i) {
+        if (seen.values.values[4 * i + 3] > 0.5F) {
+            EXPECT_NEAR(seen.values.values[4 * i], 1, 1e-3);
+            ++covered;
+        }
+    }
+    EXPECT_GT(covered, 3000) << "of " << 64 * 64;
+}
+
+TEST(Show, EveryPlacementHasItsPictures) {
+    const std::vector<std::string> names{"view", "texels", "bias", "map", "light-view"};
+    const Scene sun = load_scene("tilted"), point = load_scene("slab:light=point");
+    for (const Part* part : all_parts()) {
+        if (part->stage != Stage::placement) {
+            continue;
+        }
+        const std::string recipe = fmt::format("hard,placement={},resolution=128", part->id);
+        const Scene& scene = part->lights.directional ? sun : point;
+        for (const Shown& shown : show(scene, recipe, names)) {
+            EXPECT_FALSE(shown.legend.empty());
+            EXPECT_GT(colors_of(shown.picture), 2U) << part->id << " " << shown.name;
+            EXPECT_TRUE(std::all_of(shown.picture.values.begin(), shown.picture.values.end(),
+                                    [](float v) { return v >= 0 && v <= 1; }))
+                << part->id << " " << shown.name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn
