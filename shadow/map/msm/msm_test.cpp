@@ -123,9 +123,13 @@ TEST(MsmRendered, TellsTheTwoCastersOfTheStackApart) {
         }
         return sum;
     };
-    const double vsm = bleeding("vsm,resolution=512,vsm.bleeding=0");
-    EXPECT_LT(bleeding("msm,resolution=512,msm.bleeding=0"), 0.2 * vsm);
-    EXPECT_LT(bleeding("msm,resolution=512,msm.bleeding=0,msm.format=float32,msm.moment_bias=1e-6"), 0.1 * vsm);
+    for (const std::string placement : {",placement=fit", ",placement=cascades"}) {
+        const double vsm = bleeding("vsm,resolution=512,vsm.bleeding=0" + placement);
+        EXPECT_LT(bleeding("msm,resolution=512,msm.bleeding=0" + placement), 0.2 * vsm) << placement;
+        EXPECT_LT(bleeding("msm,resolution=512,msm.bleeding=0,msm.format=float32,msm.moment_bias=1e-6" + placement),
+                  0.1 * vsm)
+            << placement;
+    }
 }
 
 TEST(MsmRendered, StaysInRangeAndFreeOfAcne) {
