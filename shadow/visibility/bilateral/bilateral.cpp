@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// A joint bilateral filter of visibility in screen space: it averages along surfaces and never across their borders.
+//
+// Based on: Petschnigg, Szeliski, Agrawala, Cohen, Hoppe, Toyama. Digital Photography with Flash and No-Flash Image
+// Pairs. SIGGRAPH 2004. [PSA04]
+// Based on: Pham, van Vliet. Separable Bilateral Filtering for Fast Video Preprocessing. ICME 2005. [PV05]
+#include "shadow/visibility/bilateral/bilateral.h"
+
+#include "shadow/frame.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* filter_text = R"(
+#include "shadow/view/view.glsl"
+#include "shadow/visibility/bilateral/bilateral.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D gbuffer_position;
+layout(binding = 1) uniform sampler2D gbuffer_normal;
+layout(binding = 2) uniform sampler2D noisy;
+layout(binding = 3, r32f) uniform writeonly image2D filtered;
+layout(binding = 4, scalar) uniform Constants { GnViewConstants view; GnLight light; GnBilateralParams params; } u;
+layout(push_constant) uniform Push { ivec2 axis; };
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = ivec2(u.view.size.xy);
+    if (any(greaterThanEqual(pixel, size))) {
+        return;
+    }
+    vec4 position = texelFetch(gbuffer_position, pixel, 0);
+    vec4 normal = texelFetch(gbuffer_normal, pixel, 0);
+    if (position.w < 0.5 || !gn_counted(u.light, position.xyz, normal.xyz)) {
+        imageStore(filtered, pixel, vec4(0.0));
+        return;
+    }
+    // The width of a pixel, across the view ray.
+    vec4 centre = u.view.ws_from_cs * vec4((vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0, 0.5, 1.0);
+    vec4 beside = u.view.ws_from_cs * vec4((vec2(pixel) + vec2(1.5, 0.5)) / vec2(size) * 2.0 - 1.0, 0.5, 1.0);
+    vec3 centre_ray = centre.xyz / centre.w - u.view.eye_ws.xyz;
+    float share = length(beside.xyz / beside.w - centre.xyz / centre.w) / length(centre_ray);
+    float pixel_ws = share * distance(position.xyz, u.view.eye_ws.xyz);
+
+    // Average what counts for the light, by closeness on screen and in space.
+    float sum = texelFetch(noisy, pixel, 0).r;
+    float weights = 1.0;
+    for (int i = -u.params.radius; i <= u.params.radius; ++i) {
+        ivec2 neighbour = pixel + i * axis;
+        if (i == 0 || any(lessThan(neighbour, ivec2(0))) || any(greaterThanEqual(neighbour, size))) {
+            continue;
+        }
+        vec4 q = texelFetch(gbuffer_position, neighbour, 0);
+        vec3 q_n = texelFetch(gbuffer_normal, neighbour, 0).xyz;
+        if (q.w < 0.5 || !gn_counted(u.light, q.xyz, q_n)) {
+            continue;
+        }
+        float weight = gn_bilateral_spatial(abs(i), u.params.radius) *
+                       gn_bilateral_range(position.xyz, normal.xyz, pixel_ws, q.xyz, q_n, u.params);
+        sum += weight * texelFetch(noisy, neighbour, 0).r;
+        weights += weight;
+    }
+    imageStore(filtered, pixel, vec4(clamp(sum / weights, 0.0, 1.0)));
+}
+)";
+
+struct Constants {
+    GnViewConstants view;
+    GnLight light;
+    GnBilateralParams params;
+};
+
+/// One direction of the filter.
+TextureHandle add_direction(const FrameInput& input, const GnBilateralParams& params, TextureHandle noisy, ivec2 axis) {
+    const ViewSamples& samples = input.samples;
+    const TextureHandle filtered = create_visibility(input.graph, samples);
+    input.graph.add_pass(
+        axis.x != 0 ? "bilateral x" : "bilateral y",
+        [&](PassBuilder& pass) {
+            pass.sample(samples.position);
+            pass.sample(samples.normal);
+            pass.sample(noisy);
+            pass.storage_write(filtered);
+        },
+        [samples, noisy, filtered, axis,
+         constants = Constants{samples.constants, input.light().shape, params}](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "bilateral.comp", filter_text}});
+            r.set("gbuffer_position", samples.position);
+            r.set("gbuffer_normal", samples.normal);
+            r.set("noisy", noisy);
+            r.set_storage("filtered", filtered);
+            r.set_value("u", constants);
+            r.push_value(axis);
+            r.dispatch_pixels(samples.width, samples.height);
+        });
+    return filtered;
+}
+
+Visibility add_bilateral(const FrameInput& input, const Recipe& recipe, const Visibility& noisy) {
+    const auto params = recipe.of<GnBilateralParams>("bilateral");
+    if (params.radius == 0) {
+        return noisy;
+    }
+    const TextureHandle along_x = add_direction(input, params, noisy.image, ivec2(1, 0));
+    return {add_direction(input, params, along_x, ivec2(0, 1))};
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& visibility_bilateral() {
+    static const Part part = [] {
+        Part p;
+        p.id = "bilateral";
+        p.stage = Stage::visibility;
+        p.title = "Joint bilateral filter";
+        p.citation = "PSA04";
+        p.params = param_table<GnBilateralParams>({
+            GN_PARAM(GnBilateralParams, radius, integer, 0, 64, "pixels",
+                     "Reach of the filter: less noise and softer edges, cost grows in proportion."),
+            GN_PARAM(GnBilateralParams, plane, real, 0.01, 1000, "pixels",
+                     "Distance from a sample's plane, in widths of its pixel, at which neighbours stop counting: "
+                     "smoother curved surfaces, bleeding over small steps."),
+            GN_PARAM(GnBilateralParams, normal, real, 0, 1024, "",
+                     "Exponent of the cosine between normals: surfaces of fewer directions are mixed."),
+        });
+        p.params_type = "GnBilateralParams";
+        p.glsl = "shadow/visibility/bilateral/bilateral.glsl";
+        p.add_visibility = add_bilateral;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn
