@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Hard shadows with straight edges: one comparison, with the depth on the receiver's side of the silhouette.
+//
+// Based on: Sen, Cammarano, Hanrahan. Shadow Silhouette Maps. SIGGRAPH 2003. [SCH03]
+#include "shadow/part.h"
+
+namespace gn {
+namespace {
+
+Guard guard(const Recipe&) {
+    return {.texels = 2};
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_silhouette() {
+    static const Part part = [] {
+        Part p;
+        p.id = "silhouette";
+        p.stage = Stage::lookup;
+        p.title = "One comparison on the right side of the silhouette";
+        p.citation = "SCH03";
+        p.needs = "silhouettes";
+        p.glsl = "shadow/lookup/silhouette/silhouette.glsl";
+        p.guard = guard;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

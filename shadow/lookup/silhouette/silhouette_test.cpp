@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/lookup/silhouette/silhouette.glsl"
+
+#include "tests/rig.h"
+
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+TEST(Silhouette, PackingKeepsTwelveBits) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const vec2 p(uniform(random), uniform(random));
+        const vec2 back = gn_silhouette_unpack(gn_silhouette_pack(p));
+        EXPECT_NEAR(back.x, p.x, 0.51 / 4095);
+        EXPECT_NEAR(back.y, p.y, 0.51 / 4095);
+    }
+    EXPECT_EQ(gn_silhouette_unpack(gn_silhouette_pack(vec2(1))), vec2(1));
+}
+
+/// A line through cell (0, 0) and its surroundings.
+struct Line {
+    vec2 a, b;
+    [[nodiscard]] float side(vec2 p) const { return gn_silhouette_cross(normalize(b - a), p - a); }
+};
+
+Line random_line(std::mt19937& random) {
+    std::uniform_real_distribution<float> uniform(0, 1);
+    const vec2 through(uniform(random), uniform(random));
+    const float angle = 6.2831853F * uniform(random);
+    return {through - 10.0F * vec2(std::cos(angle), std::sin(angle)),
+            through + 9.0F * vec2(std::cos(angle), std::sin(angle))};
+}
+
+/// What the map stores in the cell at `at`: the line's point or the middle; in the space of cell (0, 0).
+vec2 stored(const Line& line, vec2 at) {
+    const float t = gn_silhouette_point(line.a - at, line.b - at);
+    const vec2 p_cell = t < 0 ? vec2(0.5F) : mix(line.a - at, line.b - at, t);
+    return gn_silhouette_unpack(gn_silhouette_pack(p_cell)) + at;
+}
+
+TEST(Silhouette, EverySegmentThroughACellHasAPointOnItWithin) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> uniform(-1, 2);
+    int hits = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const vec2 a(uniform(random), uniform(random)), b(uniform(random), uniform(random));
+        bool touches = false;
+        for (int k = 0; k <= 400; ++k) {
+            touches = touches || gn_silhouette_within(mix(a, b, static_cast<float>(k) / 400));
+        }
+        const float t = gn_silhouette_point(a, b);
+        ASSERT_TRUE(!touches || t >= 0) << i;
+        if (t >= 0) {
+            const vec2 p = mix(a, b, t);
+            ASSERT_TRUE(p.x > -1e-4F && p.x < 1.0001F && p.y > -1e-4F && p.y < 1.0001F) << i;
+            ++hits;
+        }
+    }
+    EXPECT_GT(hits, 1000);
+}
+
+TEST(Silhouette, StraightEdgesAreExact) {
+    // The chosen corner lies on the receiver's side of the line: its depth is the right one.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < 20000; ++i) {
+        const Line line = random_line(random);
+        const vec2 p(uniform(random), uniform(random));
+        const ivec2 corner =
+            gn_silhouette_corner(p, stored(line, vec2(0)), stored(line, vec2(1, 0)), stored(line, vec2(0, 1)),
+                                 stored(line, vec2(-1, 0)), stored(line, vec2(0, -1)));
+        // Rounding to 12 bits moves the edge where points lie close together, and hides lines that pass a corner.
+        const float corner_distance = line.side(vec2(corner));
+        if (std::abs(line.side(p)) > 0.01F && std::abs(corner_distance) > 0.01F) {
+            ASSERT_GT(line.side(p) * corner_distance, 0)
+                << i << ": p " << p.x << ", " << p.y << ", corner " << corner.x << ", " << corner.y;
+        }
+    }
+}
+
+TEST(SilhouetteRendered, StraightEdgesMatchTheTraceWhereHardIsAStaircase) {
+    for (const char* scene : {"half-plane:hard=1", "slab:hard=1", "half-plane:light=directional,hard=1"}) {
+        const test::ComparisonOptions size{.width = 384, .height = 384, .samples = 1};
+        const auto hard = test::compare(scene, "hard,resolution=128", size);
+        const auto silhouette = test::compare(scene, "silhouette,resolution=128", size);
+        EXPECT_LT(*silhouette.errors.mismatch, 0.2 * *hard.errors.mismatch) << scene;
+    }
+}
+
+TEST(SilhouetteRendered, NoWorseThanHardOnFineGeometryAndUnderEveryLight) {
+    for (const char* scene : {"fence", "contact:light=point", "contact", "overlap:hard=1"}) {
+        const test::ComparisonOptions size{.width = 192, .height = 192, .samples = 1};
+        const auto hard = test::compare(scene, "hard,resolution=256", size);
+        const auto silhouette = test::compare(scene, "silhouette,resolution=256", size);
+        const double noise = 2 * std::sqrt(*hard.errors.mismatch / static_cast<double>(hard.errors.samples));
+        EXPECT_LE(*silhouette.errors.mismatch, *hard.errors.mismatch + noise) << scene;
+        EXPECT_LE(*silhouette.errors.acne, *hard.errors.acne + noise) << scene;
+    }
+}
+
+}  // namespace
+}  // namespace gn
