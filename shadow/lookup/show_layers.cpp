@@ -38,28 +38,39 @@ struct TilesPush {
     int side, gap, columns, count;
 };
 
-// The surface's slope against the ray, from where neighbouring fragments lie; a paraboloid has its own rays.
+// The point that a fragment at xy sees at a linear depth: in the world, or under a paraboloid in the light's frame.
+constexpr const char* light_includes = R"(
+#include "shadow/receiver.glsl"
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(location = 0) out vec4 out_light;
+vec3 point_at(GnLightView view, vec2 xy, float depth) {
+    vec2 p_ndc = ((xy / view.resolution - view.rect_ts.xy) / view.rect_ts.zw) * 2.0 - 1.0;
+    if (view.paraboloid > 0.0) {
+        return gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
+    }
+    vec4 near = view.ws_from_cs * vec4(p_ndc, 0.0, 1.0);
+    vec4 far = view.ws_from_cs * vec4(p_ndc, 1.0, 1.0);
+    vec3 start = near.xyz / near.w;
+    vec3 along = far.xyz / far.w - start;
+    return start + along * ((depth - dot(view.depth_from_ws, vec4(start, 1.0))) / dot(view.depth_from_ws.xyz, along));
+}
+)";
+
+// The surface's slope against the ray: its points one texel further. Derivatives stand outside of any branch.
 constexpr const char* light_body = R"(
 #ifdef GN_LAYERED
     GnLightView view = views[gl_Layer];
 #else
     GnLightView view = views[push.view];
 #endif
-    vec2 p_ndc = ((gl_FragCoord.xy / view.resolution - view.rect_ts.xy) / view.rect_ts.zw) * 2.0 - 1.0;
-    vec3 p;
-    vec3 to_eye;
-    if (view.paraboloid > 0.0) {
-        p = gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
-        to_eye = -normalize(p);
-    } else {
-        vec4 p_ws = view.ws_from_cs * vec4(p_ndc, gl_FragCoord.z, 1.0);
-        p = p_ws.xyz / p_ws.w;
-        to_eye = gn_to_eye(view, p);
-    }
-    vec3 normal = cross(dFdx(p), dFdy(p));
+    vec2 step = vec2(dFdx(in_depth), dFdy(in_depth));
+    vec3 p = point_at(view, gl_FragCoord.xy, in_depth);
+    vec3 right = point_at(view, gl_FragCoord.xy + vec2(1.0, 0.0), in_depth + step.x) - p;
+    vec3 below = point_at(view, gl_FragCoord.xy + vec2(0.0, 1.0), in_depth + step.y) - p;
+    vec3 to_eye = view.paraboloid > 0.0 ? -normalize(p) : gn_to_eye(view, p);
+    vec3 normal = cross(right, below);
     float size = length(normal);
-    float cosine = size > 0.0 ? abs(dot(normal, to_eye)) / size : 0.0;
-    out_light = vec4(cosine, depth, 0.0, 1.0);
+    out_light = vec4(size > 0.0 ? abs(dot(normal, to_eye)) / size : 0.0, depth, 0.0, 1.0);
 )";
 
 }  // namespace
@@ -123,11 +134,7 @@ TextureHandle add_light_picture(const FrameInput& input, const Recipe& recipe, c
     desc.name = "light picture depth";
     desc.format = VK_FORMAT_D32_SFLOAT;
     pass.depth = input.graph.create(desc);
-    pass.fragment.includes = R"(
-#include "shadow/receiver.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(location = 0) out vec4 out_light;
-)";
+    pass.fragment.includes = light_includes;
     pass.fragment.body = light_body;
 
     // Maps that are kept over frames hold other contents.

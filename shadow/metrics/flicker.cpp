@@ -2,6 +2,7 @@
 #include "shadow/metrics/flicker.h"
 
 #include "base/error.h"
+#include "shadow/metrics/metrics.h"
 
 #include <cmath>
 
@@ -29,7 +30,8 @@ std::vector<int> same_points(const PathView& from, const PathView& to, float off
         const vec4 seen = to.position_ws[pixel];
         const bool near = std::hypot(x - column - 0.5, y - row - 0.5) <= static_cast<double>(offset);
         const double width_ws = p_cs.w * static_cast<double>(to.pixel_size);
-        if (near && seen.w > 0.5F && glm::distance(dvec3(vec3(seen)), dvec3(vec3(point))) <= width_ws) {
+        const bool alike = glm::dot(vec3(to.normal_ws[pixel]), vec3(from.normal_ws[i])) > flicker_alike;
+        if (near && alike && seen.w > 0.5F && glm::distance(dvec3(vec3(seen)), dvec3(vec3(point))) <= width_ws) {
             same[i] = static_cast<int>(pixel);
         }
     }
@@ -37,13 +39,15 @@ std::vector<int> same_points(const PathView& from, const PathView& to, float off
 }
 
 SignedError signed_error(std::span<const float> technique, std::span<const float> reference,
-                         std::span<const std::uint8_t> counted) {
+                         std::span<const std::uint8_t> counted, int width, int height) {
     GN_CHECK_EQ(technique.size(), reference.size());
+    const std::vector<std::uint8_t> edges = edge_pixels(reference, counted, width, height);
     SignedError error{std::vector<float>(reference.size(), 0.0F), {counted.begin(), counted.end()}};
     for (std::size_t i = 0; i < reference.size(); ++i) {
         if (counted[i] != 0) {
             const float wrong = reference[i] < 0.5F ? 1.0F : 0.0F;
             error.values[i] = (std::isfinite(technique[i]) ? technique[i] : wrong) - reference[i];
+            error.counted[i] = edges[i] != 0 ? 0 : 1;
         }
     }
     return error;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace gn {
 namespace {
 
@@ -10,7 +13,7 @@ namespace {
 struct Wall {
     static constexpr int width = 40, height = 20;
     static constexpr float pixel = 0.01F;
-    std::vector<vec4> points;
+    std::vector<vec4> points, normals;
     PathView view;
 
     explicit Wall(double shift, float distance = 1) {
@@ -26,7 +29,8 @@ struct Wall {
         cs_from_ws[2][3] = 1;
         cs_from_ws[3][0] = static_cast<float>(-shift * pixel) * cs_from_ws[0][0] * distance;
         cs_from_ws[3][2] = 0.1F;
-        view = {width, height, cs_from_ws, pixel, points};
+        normals.assign(points.size(), vec4(0, 0, -1, distance));
+        view = {width, height, cs_from_ws, pixel, normals, points};
     }
     Wall(const Wall&) = delete;
     Wall& operator=(const Wall&) = delete;
@@ -88,7 +92,7 @@ TEST(Flicker, FollowsPointsThroughTheMovement) {
 }
 
 TEST(Flicker, LeavesOutWhatLiesBetweenPixelsAndOtherSurfaces) {
-    const Wall from(0), near_by(0.05), between(0.5), behind(0, 1.02F);
+    const Wall from(0), near_by(0.03), between(0.5), behind(0, 1.02F);
     const auto found = [&](const Wall& to) {
         const std::vector<int> same = same_points(from.view, to.view);
         return std::count_if(same.begin(), same.end(), [](int i) { return i >= 0; });
@@ -97,15 +101,29 @@ TEST(Flicker, LeavesOutWhatLiesBetweenPixelsAndOtherSurfaces) {
     EXPECT_EQ(found(between), 0);
     EXPECT_EQ(found(behind), 0) << "another wall 2 cm behind, where a pixel is 1 cm wide";
 
+    // Where two walls meet, a point of one is not the other's.
+    Wall across(0);
+    across.normals.assign(across.points.size(), vec4(1, 0, 0, 1));
+    across.view.normal_ws = across.normals;
+    EXPECT_EQ(found(across), 0);
+
     // Nothing in common is no figure, not a zero.
     EXPECT_FALSE(
         flicker_between(error_of(0), error_of(1), same_points(from.view, between.view)).root_mean_square().has_value());
 }
 
 TEST(Flicker, ANumberThatIsNoneIsWhollyWrong) {
-    const std::vector<float> technique{NAN, NAN, 0.5F}, reference{0, 1, 1};
-    const std::vector<std::uint8_t> counted{1, 1, 0};
-    EXPECT_EQ(signed_error(technique, reference, counted).values, (std::vector<float>{1, -1, 0}));
+    const std::vector<float> technique{NAN, 0, NAN, 0.5F, 0.5F, 0.5F}, reference{0, 0.4F, 0.6F, 0.6F, 1, 1};
+    const std::vector<std::uint8_t> counted{1, 1, 1, 1, 0, 1};
+    const SignedError error = signed_error(technique, reference, counted, 6, 1);
+    EXPECT_EQ(error.values, (std::vector<float>{1, -0.4F, -0.6F, 0.5F - 0.6F, 0, -0.5F}));
+}
+
+TEST(Flicker, LeavesOutTheEdgesOfTheReference) {
+    // R jumps between columns 2 and 3: both are left out, and nothing else.
+    const std::vector<float> technique(6, 0.5F), reference{0, 0, 0, 1, 1, 1};
+    const std::vector<std::uint8_t> counted(6, 1);
+    EXPECT_EQ(signed_error(technique, reference, counted, 6, 1).counted, (std::vector<std::uint8_t>{1, 1, 0, 0, 1, 1}));
 }
 
 }  // namespace
