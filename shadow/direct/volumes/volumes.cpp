@@ -17,8 +17,9 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     const VolumeBuffers buffers = import_volume_buffers(input, params);
     add_facing(input, buffers);
     add_silhouettes(input, buffers);
-    add_stencil(input, buffers, params);
-    return add_stencil_resolve(input);
+    const TextureHandle counts = add_receivers(input, buffers);
+    add_stencil(input, buffers, counts);
+    return add_stencil_resolve(input, counts);
 }
 
 }  // namespace
@@ -36,9 +37,6 @@ const Part& direct_volumes() {
                       "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),
             GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
                      "Solids cast with the half of their surface that light meets first; off counts every triangle."),
-            GN_PARAM(GnVolumesParams, exact, boolean, 0, 1, "",
-                     "Tells a sample at the border of its surface from the side that hangs there; off fills faster and "
-                     "leaves stray dark pixels along silhouettes."),
             GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",
                      "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
         }),

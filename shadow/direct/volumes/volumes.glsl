@@ -49,32 +49,12 @@ GN_FN vec4 gn_volumes_extrude(vec3 p_ws, vec4 light_ws) {
     return vec4(p_ws * light_ws.w - vec3(light_ws), 0.0f);
 }
 
-// The smallest and the largest reversed depth of the side over the edge a, b: what interpolation over a sliver must keep.
-GN_FN vec2 gn_volumes_side_depths(GnVolumesFrame frame, vec3 a_ws, vec3 b_ws) {
-    float low = 1.0f, high = 0.0f;
-    for (int i = 0; i < 4; ++i) {
-        vec3 p_ws = (i & 1) == 0 ? a_ws : b_ws;
-        vec4 p_cs = frame.cs_from_ws * (i < 2 ? vec4(p_ws, 1.0f) : gn_volumes_extrude(p_ws, frame.light_ws));
-        // What lies before the near plane or behind the eye is reached through depth 1.
-        float depth = p_cs.w <= p_cs.z || p_cs.w <= 0.0f ? 1.0f : (p_cs.z <= 0.0f ? 0.0f : p_cs.z / p_cs.w);
-        low = depth < low ? depth : low;
-        high = depth > high ? depth : high;
-    }
-    return vec2(low, high);
-}
-
-// Whether the side over the edge a, b is behind the sample: both the eye and the sample are on one side of its plane. A
-// side seen nearly edge-on has no say about that; there its own reversed depth in the pixel decides.
-GN_FN bool gn_volumes_behind(GnVolumesFrame frame, vec3 p_ws, vec3 a_ws, vec3 b_ws, float side_depth) {
-    vec3 n_ws = cross(vec3(gn_volumes_extrude(a_ws, frame.light_ws)), b_ws - a_ws);
-    vec3 to_eye = vec3(frame.eye_ws) - a_ws;
-    float eye_height = dot(n_ws, to_eye);
-    if (eye_height * eye_height > 1.0e-6f * dot(n_ws, n_ws) * dot(to_eye, to_eye)) {
-        float height = dot(n_ws, p_ws - a_ws);
-        return eye_height > 0.0f ? height >= 0.0f : height <= 0.0f;
-    }
-    vec4 p_cs = frame.cs_from_ws * vec4(p_ws, 1.0f);
-    return side_depth * p_cs.w <= p_cs.z;
+// The far end of the strip of a side that lies at its edge: pushed away by what 64 pixels span there, so that even seen
+// at a slant the strip is wider than the rasterizer's grid.
+GN_FN vec4 gn_volumes_strip(GnVolumesFrame frame, vec3 p_ws, vec3 away_ws) {
+    float reach = 64.0f * frame.eye_ws.w * length(p_ws - vec3(frame.eye_ws));
+    float size = length(away_ws);
+    return vec4(size > 0.0f ? p_ws + away_ws * (reach / size) : p_ws, 1.0f);
 }
 
 // Whether the sample lies on the edge as far as the rasterizer can tell. A side that hangs from an edge of the sample's

@@ -12,8 +12,7 @@
 struct GnVolumesParams {
     int masked GN_DEFAULT(GN_VOLUMES_OPAQUE);  ///< alpha-masked casters: whole polygons, or nothing
     int closed GN_DEFAULT(1);                  ///< 1: a solid casts with one side of its surface only
-    int exact GN_DEFAULT(1);    ///< 1: samples at the very border of a surface are told from their shadow
-    int culling GN_DEFAULT(1);  ///< 1: components whose shadow cannot be seen are left out
+    int culling GN_DEFAULT(1);                 ///< 1: components whose shadow cannot be seen are left out
 };
 
 // How a component of the mesh casts.
@@ -30,7 +29,6 @@ struct GnVolumesFrame {
     uint triangles;
     uint edges;
     uint opaque_triangles;  ///< slots of the list of caps that opaque triangles have; masked ones follow
-    uint corners;           ///< vertices of a side: 3 where the far end is one point, else 6
     float snap;             ///< pixels by which the rasterizer may move an edge
 };
 

@@ -84,7 +84,7 @@ void main() {
     if (count == 0u) {
         return;
     }
-    uint slot = atomicAdd(draws[0], count * u.frame.corners) / u.frame.corners;
+    uint slot = atomicAdd(draws[0], count * 6u) / 6u;
     for (uint i = 0u; i < count; ++i) {
         sides[slot + i] = edge * 2u + (sum < 0 ? 1u : 0u);
     }
@@ -193,7 +193,6 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
                      .triangles = static_cast<uint>(input.scene.triangles.size()),
                      .edges = static_cast<uint>(scene.list->edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
-                     .corners = light_ws.w > 0.0F ? 6U : 3U,
                      .snap = snap_pixels(input.device)};
 
     // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.

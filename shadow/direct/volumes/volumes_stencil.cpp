@@ -11,48 +11,56 @@ namespace {
 // turns the fixed clipping off.
 constexpr const char* side_text = R"(
 #include "shadow/direct/volumes/volumes.glsl"
+layout(constant_id = 0) const int STRIP = 0;
 layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Edges { uvec2 edges[]; };
 layout(binding = 3, scalar) readonly buffer Sides { uint sides[]; };
 layout(location = 0) flat out vec3 a_ws;
 layout(location = 1) flat out vec3 b_ws;
-layout(location = 2) flat out vec2 depths;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
-    uint side = sides[uint(gl_VertexIndex) / u.frame.corners];
-    uint corner = uint(gl_VertexIndex) % u.frame.corners;
+    uint side = sides[uint(gl_VertexIndex) / 6u];
+    uint corner = uint(gl_VertexIndex) % 6u;
     uvec2 edge = edges[side >> 1];
     a_ws = positions[edge.x];
     b_ws = positions[edge.y];
-    // From outside the side is a, a at infinity, b at infinity, b; the sun has one point at infinity for both.
+    // From outside the side is a, a at infinity, b at infinity, b; for the sun both points at infinity are one.
     bool turned = (side & 1u) != 0u;
-    bool second = u.frame.corners == 3u ? corner == 2u : corner == 2u || corner >= 4u;
-    bool far = u.frame.corners == 3u ? corner == 1u : corner == 1u || corner == 2u || corner == 4u;
+    bool second = corner == 2u || corner >= 4u;
+    bool far = corner == 1u || corner == 2u || corner == 4u;
     vec3 p_ws = second != turned ? b_ws : a_ws;
-    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
+    vec4 far_ws = gn_volumes_extrude(p_ws, u.frame.light_ws);
+    if (STRIP != 0) {
+        far_ws = gn_volumes_strip(u.frame, p_ws, far_ws.xyz);
+    }
+    gl_Position = u.frame.cs_from_ws * (far ? far_ws : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
-    // The first corner of a triangle tells the fragments.
-    depths = corner % 3u == 0u ? gn_volumes_side_depths(u.frame, a_ws, b_ws) : vec2(0.0);
 }
 )";
 
-constexpr const char* behind_text = R"(
+constexpr const char* receiver_text = R"(
+layout(binding = 4) uniform sampler2D depth;
+void main() {
+    gl_FragDepth = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
+}
+)";
+
+constexpr const char* border_text = R"(
 #include "shadow/direct/volumes/volumes.glsl"
 layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 4) uniform sampler2D position_ws;
 layout(binding = 5) uniform sampler2D normal_ws;
 layout(location = 0) flat in vec3 a_ws;
 layout(location = 1) flat in vec3 b_ws;
-layout(location = 2) flat in vec2 depths;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 p_ws = texelFetch(position_ws, pixel, 0).xyz;
-    if (!gn_volumes_behind(u.frame, p_ws, a_ws, b_ws, clamp(gl_FragCoord.z, depths.x, depths.y)) &&
-        !gn_volumes_touches(u.frame, p_ws, texelFetch(normal_ws, pixel, 0).xyz, a_ws, b_ws)) {
+    vec4 p_ws = texelFetch(position_ws, pixel, 0);
+    if (p_ws.w == 0.0 || !gn_volumes_touches(u.frame, p_ws.xyz, texelFetch(normal_ws, pixel, 0).xyz, a_ws, b_ws)) {
         discard;
     }
+    gl_FragDepth = min(gl_FragCoord.z * 1.00001, 1.0);
 }
 )";
 
@@ -118,13 +126,21 @@ RasterDesc volume_pipeline(const char* name, const char* text, VkCompareOp compa
     return desc;
 }
 
-// Sides are compared by the fragment shader, which knows when a sample touches the side's own edge, or by the depth test.
-RasterDesc side_pipeline(bool exact) {
-    RasterDesc desc =
-        volume_pipeline("volume-side.vert", side_text, exact ? VK_COMPARE_OP_NEVER : VK_COMPARE_OP_GREATER, false);
-    if (exact) {
-        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-behind.frag", behind_text};
-    }
+RasterDesc receiver_pipeline() {
+    RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-receiver.frag", receiver_text});
+    desc.depth_test = desc.depth_write = true;
+    desc.depth_compare = VK_COMPARE_OP_ALWAYS;
+    return desc;
+}
+
+// The beginning of each side, where it may lie before a sample that touches the edge it hangs from.
+RasterDesc border_pipeline() {
+    RasterDesc desc;
+    desc.vertex = {ShaderKind::vertex, "volume-side.vert", side_text};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", border_text};
+    desc.constants = {{0, 1U}};
+    desc.depth_test = desc.depth_write = desc.depth_clamp = true;
+    desc.depth_compare = VK_COMPARE_OP_GREATER;
     return desc;
 }
 
@@ -137,42 +153,76 @@ RasterDesc cap_pipeline(bool masked, bool turned) {
 
 }  // namespace
 
-void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, const GnVolumesParams& params) {
+namespace {
+
+// The shaders' common inputs; names that a shader does not use are ignored.
+void set_inputs(Recorder& r, const VolumeBuffers& buffers, const SceneHandles& handles) {
+    r.set_value("u", buffers.frame);
+    r.set("Positions", handles.positions);
+    r.set("Indices", handles.indices);
+    r.set("Edges", buffers.edges);
+    r.set("Sides", buffers.sides);
+    r.set("Caps", buffers.caps);
+}
+
+}  // namespace
+
+TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers) {
     const ViewSamples& samples = input.samples;
+    const TextureHandle counts = input.graph.create(TextureDesc{.name = "volume counts",
+                                                                .format = VK_FORMAT_D32_SFLOAT_S8_UINT,
+                                                                .width = samples.width,
+                                                                .height = samples.height});
+    input.graph.add_pass(
+        "volumes: receivers",
+        [&](PassBuilder& pass) {
+            pass.depth(counts, Load::clear);
+            pass.sample(samples.depth);
+            pass.sample(samples.position);
+            pass.sample(samples.normal);
+            for (const BufferHandle read : {input.handles.positions, buffers.edges, buffers.sides}) {
+                pass.storage_read(read);
+            }
+            pass.indirect(buffers.draws);
+        },
+        [samples, buffers, handles = input.handles](Recorder& r) {
+            // Take the view samples' depth bit for bit, then lift what touches an edge before the side that hangs there.
+            r.bind(receiver_pipeline());
+            r.set("depth", samples.depth);
+            r.draw(3);
+            r.bind(border_pipeline());
+            set_inputs(r, buffers, handles);
+            r.set("position_ws", samples.position);
+            r.set("normal_ws", samples.normal);
+            r.draw_indirect(buffers.draws, 0);
+        });
+    return counts;
+}
+
+void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle counts) {
     input.graph.add_pass(
         "volumes: stencil",
         [&](PassBuilder& pass) {
-            pass.depth_read_only(samples.depth, {0, 1, 0, 1}, 0);
-            pass.sample(samples.position);
-            pass.sample(samples.normal);
+            pass.depth_read_only(counts, {0, 1, 0, 1}, 0);
             for (const BufferHandle read :
                  {input.handles.positions, input.handles.indices, buffers.edges, buffers.sides, buffers.caps}) {
                 pass.storage_read(read);
             }
             pass.indirect(buffers.draws);
         },
-        [buffers, samples, handles = input.handles, exact = params.exact != 0](Recorder& r) {
-            const auto bind = [&](const RasterDesc& desc) {
-                r.bind(desc);
-                r.set_value("u", buffers.frame);
-                r.set("Positions", handles.positions);
-                r.set("Indices", handles.indices);
-                r.set("Edges", buffers.edges);
-                r.set("Sides", buffers.sides);
-                r.set("Caps", buffers.caps);
-            };
-            bind(side_pipeline(exact));
-            r.set("position_ws", samples.position);
-            r.set("normal_ws", samples.normal);
+        [buffers, handles = input.handles](Recorder& r) {
+            r.bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_GREATER, false));
+            set_inputs(r, buffers, handles);
             r.draw_indirect(buffers.draws, 0);
             for (const unsigned list : {0U, 1U, 2U, 3U}) {
-                bind(cap_pipeline(list >= 2, list % 2 == 1));
+                r.bind(cap_pipeline(list >= 2, list % 2 == 1));
+                set_inputs(r, buffers, handles);
                 r.draw_indirect(buffers.draws, (list + 1) * sizeof(VkDrawIndirectCommand));
             }
         });
 }
 
-Visibility add_stencil_resolve(const FrameInput& input) {
+Visibility add_stencil_resolve(const FrameInput& input, TextureHandle counts) {
     const ViewSamples& samples = input.samples;
     const TextureHandle image = input.graph.create(TextureDesc{
         .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
@@ -180,7 +230,7 @@ Visibility add_stencil_resolve(const FrameInput& input) {
         "volumes: resolve",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
-            pass.depth_read_only(samples.depth);
+            pass.depth_read_only(counts);
             pass.sample(samples.position);
             pass.sample(samples.normal);
         },

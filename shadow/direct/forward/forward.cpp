@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Forward shadow mapping: what the light sees is carried into the view and splatted, instead of the view asking the map.
+//
+// Based on: Zhang. Forward Shadow Mapping. Eurographics Workshop on Rendering 1998. [Zha98]
+// Departs from it: splats are added up in one compute pass, and the camera's visibility is settled by the depth of each
+// sample in the map, not by a second depth buffer.
+//
+// Also here: forward_passes.h, forward_passes.cpp.
+#include "shadow/direct/forward/forward_passes.h"
+
+#include "shadow/map/raster.h"
+
+namespace gn {
+namespace {
+
+Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
+    const auto params = recipe.of<GnForwardParams>("forward");
+
+    // See the scene from the light.
+    const Part& placement = recipe.placement_for(input.light().shape);
+    LightViews views = placement.place(input, recipe);
+    views.part = &placement;
+    const TextureHandle depth = input.graph.create(TextureDesc{.name = "map",
+                                                               .format = VK_FORMAT_D32_SFLOAT,
+                                                               .width = views.resolution,
+                                                               .height = views.resolution,
+                                                               .layers = views.layers});
+    add_caster_passes(input, recipe, views, {.depth = depth});
+
+    // Carry every lit texel into the view.
+    const BufferHandle samples = add_forward_samples(input, recipe, views, params);
+    const BufferHandle light = add_forward_splats(input, views, depth, samples, params);
+    return add_forward_resolve(input, samples, light);
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& direct_forward() {
+    static const Part part = [] {
+        Part p;
+        p.id = "forward";
+        p.stage = Stage::direct;
+        p.title = "Forward shadow mapping";
+        p.citation = "Zha98";
+        p.params = param_table<GnForwardParams>({
+            GN_PARAM(GnForwardParams, radius, integer, 0, 8, "texels",
+                     "Reach of a splat: softer edges and wider dark rims, cost grows with its square; 0 is one texel."),
+            GN_PARAM(GnForwardParams, tolerance, real, 0, 64, "texels",
+                     "How far a splat may lie off a sample's plane and still light it: fewer dark rims, more leaks."),
+            GN_PARAM(
+                GnForwardParams, max_pixels, integer, 1, 512, "pixels",
+                "Limit of a splat's reach on screen: magnified maps tear where it is too small, and cost more where "
+                "it is large."),
+        });
+        p.params_type = "GnForwardParams";
+        p.glsl = "shadow/direct/forward/forward.glsl";
+        p.add_direct = add_forward;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

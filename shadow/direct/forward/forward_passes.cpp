@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Based on: Zhang. Forward Shadow Mapping. Eurographics Workshop on Rendering 1998. [Zha98]
+#include "shadow/direct/forward/forward_passes.h"
+
+#include "shadow/frame.h"
+#include "shadow/lookup/sample_pass.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* samples_text = R"(
+layout(binding = 8, scalar) writeonly buffer Samples { GnForwardSample samples[]; };
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    GnForwardSample s = GnForwardSample(vec2(0), 0.0, 0.0, vec2(0), vec2(0), -2);
+    GnReceiver receiver;
+    if (read_sample(pixel, receiver)) {
+        // Where two views overlap the first serves.
+        int view = GN_CHOOSE(receiver, placement).first;
+        GnProjected p = gn_project(receiver, views[view], u.bias);
+        s.uv_ts = p.uv_ts;
+        s.depth = p.depth;
+        s.plane_slope = p.plane_slope;
+        s.plane_fall = p.plane_fall;
+        s.view = p.inside ? view : -1;
+        // What a plane falls within a texel, and a texel's width itself, are both as good as nothing.
+        s.slack = u.params.tolerance * (p.texel_ws / p.metres_per_depth + length(p.plane_slope) * p.texel_ts);
+    }
+    samples[pixel.y * int(u.view.size.x) + pixel.x] = s;
+}
+)";
+
+constexpr const char* splat_text = R"(
+#include "shadow/view/view.glsl"
+#include "shadow/direct/forward/forward.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2DArray depth_map;
+layout(binding = 1, scalar) readonly buffer Views { GnLightView views[]; };
+layout(binding = 2, scalar) readonly buffer Samples { GnForwardSample samples[]; };
+layout(binding = 3, scalar) buffer Light { uint light[]; };
+layout(binding = 4, scalar) uniform Constants { GnViewConstants view; GnForwardParams params; } u;
+layout(push_constant) uniform Push { int index; };
+
+float depth_at(ivec2 texel) { return texelFetch(depth_map, ivec3(texel, views[index].layer), 0).r; }
+
+vec3 position_at(ivec2 texel, float depth) {
+    return gn_forward_position(views[index], (vec2(texel) + 0.5) / views[index].resolution, depth);
+}
+
+// How the surface runs from a texel to the next: on the side where depth changes less.
+vec3 step_ws(ivec2 texel, ivec2 axis, ivec2 low, ivec2 high, float depth) {
+    ivec2 after = min(texel + axis, high);
+    ivec2 before = max(texel - axis, low);
+    float depth_after = depth_at(after);
+    float depth_before = depth_at(before);
+    bool forwards = after != texel && (before == texel || abs(depth_after - depth) <= abs(depth_before - depth));
+    vec3 p_ws = position_at(texel, depth);
+    return forwards ? position_at(after, depth_after) - p_ws : p_ws - position_at(before, depth_before);
+}
+
+vec2 pixel_of(vec4 p_cs) { return (p_cs.xy / p_cs.w * 0.5 + 0.5) * vec2(u.view.size.xy); }
+
+// [Zha98]: one sample receives a splat where its own plane passes through the lit point.
+void receive(int pixel, vec2 uv_ts, float depth) {
+    GnForwardSample s = samples[pixel];
+    float weight = gn_forward_weight((s.uv_ts - uv_ts) * views[index].resolution, u.params.radius);
+    if (s.view != index || weight == 0.0) {
+        return;
+    }
+    vec2 d_ts = uv_ts - s.uv_ts;
+    float plane = s.depth + dot(s.plane_slope, d_ts) / max(1.0 - dot(s.plane_fall, d_ts), gn_least_divisor);
+    if (plane <= depth && plane >= depth - s.slack) {
+        atomicAdd(light[pixel], uint(weight * 65536.0 + 0.5));
+    }
+}
+
+void main() {
+    // Take one texel of the view's rectangle; without a caster it lights nothing.
+    GnLightView view = views[index];
+    ivec2 low = ivec2(view.rect_ts.xy * view.resolution + 0.5);
+    ivec2 high = ivec2((view.rect_ts.xy + view.rect_ts.zw) * view.resolution + 0.5) - 1;
+    ivec2 texel = low + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThan(texel, high))) {
+        return;
+    }
+    float depth = depth_at(texel);
+    if (depth >= 1.0) {
+        return;
+    }
+    // Carry it into the view.
+    vec3 p_ws = position_at(texel, depth);
+    vec4 p_cs = u.view.cs_from_ws * vec4(p_ws, 1.0);
+    if (p_cs.w <= 0.0) {
+        return;
+    }
+    // Bound the splat on screen.
+    float reach = max(float(u.params.radius), 0.5);
+    vec3 x_ws = reach * step_ws(texel, ivec2(1, 0), low, high, depth);
+    vec3 y_ws = reach * step_ws(texel, ivec2(0, 1), low, high, depth);
+    vec2 centre = pixel_of(p_cs);
+    vec2 extent = vec2(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec3 corner_ws = p_ws + ((i & 1) == 0 ? -x_ws : x_ws) + ((i & 2) == 0 ? -y_ws : y_ws);
+        vec4 corner_cs = u.view.cs_from_ws * vec4(corner_ws, 1.0);
+        vec2 off = corner_cs.w > 0.0 ? abs(pixel_of(corner_cs) - centre) : vec2(float(u.params.max_pixels));
+        extent = max(extent, off);
+    }
+    extent = min(extent + 1.0, vec2(float(u.params.max_pixels)));
+    vec2 size = vec2(u.view.size.xy);
+    ivec2 from = ivec2(clamp(floor(centre - extent), vec2(0.0), size));
+    ivec2 to = ivec2(clamp(ceil(centre + extent), vec2(0.0), size));
+
+    // Splat.
+    vec2 uv_ts = (vec2(texel) + 0.5) / view.resolution;
+    for (int y = from.y; y < to.y; ++y) {
+        for (int x = from.x; x < to.x; ++x) {
+            receive(y * int(u.view.size.x) + x, uv_ts, depth);
+        }
+    }
+}
+)";
+
+constexpr const char* resolve_text = R"(
+#include "shadow/direct/forward/forward.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, scalar) readonly buffer Samples { GnForwardSample samples[]; };
+layout(binding = 1, scalar) readonly buffer Light { uint light[]; };
+layout(binding = 2, r32f) uniform writeonly image2D visibility;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(visibility);
+    if (any(greaterThanEqual(pixel, size))) {
+        return;
+    }
+    int i = pixel.y * size.x + pixel.x;
+    float v = min(float(light[i]) / 65536.0, 1.0);
+    // What no view sees is lit; what does not count for the light is dark.
+    v = samples[i].view == -1 ? 1.0 : samples[i].view == -2 ? 0.0 : v;
+    imageStore(visibility, pixel, vec4(v));
+}
+)";
+
+/// Bytes of GnForwardSample in scalar layout.
+constexpr VkDeviceSize sample_bytes = 9 * 4;
+
+struct SplatConstants {
+    GnViewConstants view;
+    GnForwardParams params;
+};
+
+VkDeviceSize pixels(const ViewSamples& samples) {
+    return VkDeviceSize{samples.width} * samples.height;
+}
+
+}  // namespace
+
+BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                                 const GnForwardParams& params) {
+    const ViewSamples& samples = input.samples;
+    const BufferHandle buffer =
+        input.graph.create(BufferDesc{.name = "forward samples", .bytes = pixels(samples) * sample_bytes});
+
+    // Compose the shader as lookups do: the placement chooses, the bias moves.
+    std::string text = bias_defines(recipe) + "#include \"shadow/view/view.glsl\"\n" + include_line(views.part->glsl);
+    text += "#include \"shadow/direct/forward/forward.glsl\"\n";
+    text += sample_bindings("GnForwardParams params;") + sample_functions(*views.part) + samples_text;
+    std::vector<std::byte> constants = sample_constants(input, recipe);
+    const auto more = std::as_bytes(std::span(&params, 1));
+    constants.insert(constants.end(), more.begin(), more.end());
+    input.graph.add_pass(
+        "forward: samples",
+        [&](PassBuilder& pass) {
+            declare_samples(pass, samples, views);
+            pass.storage_write(buffer);
+        },
+        [=](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-samples.comp", text}});
+            set_samples(r, samples, views);
+            r.set_bytes("u", constants);
+            r.set("Samples", buffer);
+            r.dispatch_pixels(samples.width, samples.height);
+        });
+    return buffer;
+}
+
+BufferHandle add_forward_splats(const FrameInput& input, const LightViews& views, TextureHandle depth,
+                                BufferHandle samples, const GnForwardParams& params) {
+    const BufferHandle light =
+        input.graph.create(BufferDesc{.name = "forward light", .bytes = pixels(input.samples) * sizeof(std::uint32_t)});
+    input.graph.add_pass(
+        "forward: darkness", [&](PassBuilder& pass) { pass.copy_to(light); },
+        [light](Recorder& r) { r.fill(light, 0); });
+    input.graph.add_pass(
+        "forward: splat",
+        [&](PassBuilder& pass) {
+            pass.sample(depth);
+            declare_views(pass, views);
+            pass.storage_read(samples);
+            pass.storage_write(light);
+        },
+        [=, constants = SplatConstants{input.samples.constants, params}](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-splat.comp", splat_text}});
+            r.set("depth_map", depth);
+            set_views(r, views);
+            r.set("Samples", samples);
+            r.set("Light", light);
+            r.set_value("u", constants);
+            for (std::size_t view = 0; view < views.views.size(); ++view) {
+                // A whole layer covers any rectangle, also one that is chosen on the GPU.
+                r.push_value(static_cast<std::int32_t>(view));
+                r.dispatch_pixels(views.resolution, views.resolution);
+            }
+        });
+    return light;
+}
+
+Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, BufferHandle light) {
+    const Visibility result{create_visibility(input.graph, input.samples)};
+    input.graph.add_pass(
+        "forward: resolve",
+        [&](PassBuilder& pass) {
+            pass.storage_read(samples);
+            pass.storage_read(light);
+            pass.storage_write(result.image);
+        },
+        [=, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-resolve.comp", resolve_text}});
+            r.set("Samples", samples);
+            r.set("Light", light);
+            r.set_storage("visibility", result.image);
+            r.dispatch_pixels(width, height);
+        });
+    return result;
+}
+
+}  // namespace gn
