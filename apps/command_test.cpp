@@ -48,6 +48,9 @@ TEST(CommandLine, SizesAreWidthXHeight) {
 }
 
 TEST(CommandLine, UnknownNamesListTheKnown) {
+    expect_misuse({"render", "slab", "--show", "texel"}, {"'texel'", "view", "texels", "bias", "map", "light-view"});
+    expect_misuse({"render", "slab", "--light", "key"}, {"--light", "--show"});
+    expect_misuse({"render", "slab", "--show", "view", "--light", "moon"}, {"'moon'", "--light"});
     expect_misuse({"render", "slap"}, {"slap", "slab", "courtyard"});
     expect_misuse({"compare", "slab", "slap", "-r", "hard"}, {"slap", "slab", "courtyard"});
     expect_misuse({"render", "slab", "-r", "pfc"}, {"'pfc'", "did you mean 'pcf'", "volumes"});

@@ -93,6 +93,10 @@ TEST(Compare, WritesAReportWhosePicturesAreThere) {
     const std::string mark = "<script type=\"application/json\" id=\"data\">";
     const std::size_t begin = page.find(mark) + mark.size();
     const json data = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    ASSERT_EQ(data.at("runs").at(0).at("inside").size(), 5U);
+    for (const json& shown : data.at("runs").at(0).at("inside")) {
+        EXPECT_TRUE(file_text(folder / ("report/" + shown.at("picture").get<std::string>())).starts_with("\x89PNG"));
+    }
     for (const std::string& name : {data.at("runs").at(0).at("picture").get<std::string>(),
                                     data.at("runs").at(0).at("error_map").get<std::string>(),
                                     data.at("scenes").at(0).at("reference").at("picture").get<std::string>()}) {
@@ -101,6 +105,36 @@ TEST(Compare, WritesAReportWhosePicturesAreThere) {
     EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org/")) << "the page loads something from a network";
     EXPECT_EQ(page.find("https://"), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+TEST(Compare, APathFillsFlicker) {
+    // Without a path the value is null; the corridor's first path is meant where none is named.
+    const CommandResult plain = run_gnomon(small({"compare", "corridor", "-r", "hard", "--json", "-"}));
+    ASSERT_EQ(plain.status, 0) << plain.err;
+    EXPECT_TRUE(json::parse(plain.out).at("runs").at(0).at("error").at("flicker").is_null());
+    const ScratchFolder folder;
+    const std::string file = folder / "figures.json";
+    const CommandResult walked = run_gnomon({"compare", "corridor", "--path", "-r", "hard,resolution=256", "-r", "none",
+                                             "--size", "160x90", "--samples", "1", "--repeat", "1", "--json", file});
+    ASSERT_EQ(walked.status, 0) << walked.err;
+    expect_has(walked.out, {"flicker"});
+    const json document = json::parse(file_text(file));
+    expect_valid(document);
+    // A map fitted to the view flickers as the view moves; no shadow at all cannot.
+    EXPECT_GT(run_of(document, "hard").at("error").at("flicker").get<double>(), 0.001);
+    EXPECT_EQ(run_of(document, "none").at("error").at("flicker").get<double>(), 0.0);
+    EXPECT_EQ(run_of(document, "hard").at("lights").at(0).at("error").at("flicker"),
+              run_of(document, "hard").at("error").at("flicker"));
+}
+
+TEST(Compare, AnUnknownPathIsRefusedWithTheKnownOnes) {
+    for (const auto& [scene, words] : {std::pair<std::string, Words>{"corridor", {"'stroll'", "walk"}},
+                                       std::pair<std::string, Words>{"slab", {"no camera path"}}}) {
+        const CommandResult result =
+            run_gnomon(small({"compare", scene, "-r", "hard", "--path", "stroll", "--json", "-"}));
+        EXPECT_EQ(result.status, 2) << scene;
+        expect_has(result.err, words);
+    }
 }
 
 TEST(Compare, TheSameCommandGoesOnWhereItStopped) {
