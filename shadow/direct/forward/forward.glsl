@@ -19,6 +19,7 @@ struct GnForwardSample {
     float slack;       // how far a splat's depth may be off the sample's plane
     vec2 plane_slope;  // as GnProjected
     vec2 plane_fall;
+    float share;       // of the weights around the sample, what texels within its view have
     int view;
 };
 
@@ -30,6 +31,22 @@ GN_FN float gn_forward_weight(vec2 distance, int radius) {
     }
     float r = float(radius);
     return max(1.0f - abs(distance.x) / r, 0.0f) * max(1.0f - abs(distance.y) / r, 0.0f) / (r * r);
+}
+
+// Share of the tents around a point that belong to texels from `low` to before `high`, along one axis, in texels: at the
+// border of a view the others are missing.
+GN_FN float gn_forward_share(float at, float low, float high, int radius) {
+    if (radius == 0) {
+        return 1.0f;
+    }
+    float sum = 0.0f;
+    float first = floor(at) - float(radius) + 0.5f;
+    for (int i = 0; i <= 2 * radius; ++i) {
+        float centre = first + float(i);
+        float weight = max(1.0f - abs(at - centre) / float(radius), 0.0f) / float(radius);
+        sum += centre > low && centre < high ? weight : 0.0f;
+    }
+    return sum;
 }
 
 // The world position of a map point with linear depth: on the ray through it, where the view's depth is this.

@@ -15,7 +15,7 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
         return;
     }
-    GnForwardSample s = GnForwardSample(vec2(0), 0.0, 0.0, vec2(0), vec2(0), -2);
+    GnForwardSample s = GnForwardSample(vec2(0), 0.0, 0.0, vec2(0), vec2(0), 1.0, -2);
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
         // Where two views overlap the first serves.
@@ -26,6 +26,10 @@ void main() {
         s.plane_slope = p.plane_slope;
         s.plane_fall = p.plane_fall;
         s.view = p.inside ? view : -1;
+        vec2 at = p.uv_ts / p.texel_ts;
+        vec4 bounds = floor(p.bounds_ts / p.texel_ts + 0.5);
+        s.share = gn_forward_share(at.x, bounds.x, bounds.z, u.params.radius) *
+                  gn_forward_share(at.y, bounds.y, bounds.w, u.params.radius);
         // What a plane falls within a texel, and a texel's width itself, are both as good as nothing.
         s.slack = u.params.tolerance * (p.texel_ws / p.metres_per_depth + length(p.plane_slope) * p.texel_ts);
     }
@@ -136,7 +140,7 @@ void main() {
         return;
     }
     int i = pixel.y * size.x + pixel.x;
-    float v = min(float(light[i]) / 65536.0, 1.0);
+    float v = clamp(float(light[i]) / (65536.0 * max(samples[i].share, 1.0e-3)), 0.0, 1.0);
     // What no view sees is lit; what does not count for the light is dark.
     v = samples[i].view == -1 ? 1.0 : samples[i].view == -2 ? 0.0 : v;
     imageStore(visibility, pixel, vec4(v));
@@ -144,7 +148,7 @@ void main() {
 )";
 
 /// Bytes of GnForwardSample in scalar layout.
-constexpr VkDeviceSize sample_bytes = 9 * 4;
+constexpr VkDeviceSize sample_bytes = 10 * 4;
 
 struct SplatConstants {
     GnViewConstants view;

@@ -28,6 +28,19 @@ TEST(Forward, SplatsOfALitSurfaceAddUpToOne) {
     }
 }
 
+TEST(Forward, MissingTexelsBeyondAViewAreKnown) {
+    for (const int radius : {1, 2, 5}) {
+        for (float at = 0; at <= 20; at += 0.13F) {
+            float within = 0;
+            for (int texel = 0; texel < 20; ++texel) {
+                within += gn_forward_weight(vec2(at - (static_cast<float>(texel) + 0.5F), 0), radius) *
+                          static_cast<float>(radius);
+            }
+            EXPECT_NEAR(gn_forward_share(at, 0, 20, radius), within, 1e-5) << radius << " at " << at;
+        }
+    }
+}
+
 TEST(Forward, ATexelReturnsToWhereItWasSeen) {
     GnLight spot;
     spot.kind = GN_LIGHT_SPOT;
@@ -45,22 +58,27 @@ TEST(Forward, ATexelReturnsToWhereItWasSeen) {
         const vec2 uv_ts =
             vec2(view.rect_ts) + (vec2(p_cs) / p_cs.w * 0.5F + 0.5F) * vec2(view.rect_ts.z, view.rect_ts.w);
         const vec3 back_ws = gn_forward_position(view, uv_ts, dot(view.depth_from_ws, vec4(p_ws, 1)));
-        // A texel is a centimetre wide here; its position must not stray to a neighbour.
-        ASSERT_LT(distance(back_ws, p_ws), 1e-3) << i;
+        // In 32 bits it strays by no more than a small part of the way to the next texel.
+        const vec3 next_ws =
+            gn_forward_position(view, uv_ts + vec2(1.0F / 512, 0), dot(view.depth_from_ws, vec4(p_ws, 1)));
+        ASSERT_LT(distance(back_ws, p_ws), 0.1F * distance(back_ws, next_ws)) << i;
     }
 }
 
 TEST(ForwardRendered, ConvergesToTheTracedHardShadow) {
+    // The blurred rim is as wide as a texel: its squared error halves with every doubling, give or take the staircase.
     for (const char* scene : {"contact", "slab:hard=1", "contact:light=point"}) {
-        double before = 1;
+        double coarsest = 0, before = 1, mismatch = 0;
         for (const int resolution : {128, 256, 512, 1024}) {
             const auto c = test::compare(scene, fmt::format("forward,resolution={}", resolution),
                                          {.width = 256, .height = 256, .samples = 1});
-            const double noise = 3 * std::sqrt(*c.errors.mismatch / static_cast<double>(c.errors.samples));
-            EXPECT_LT(*c.errors.mismatch, 0.75 * before + noise) << scene << " at " << resolution;
-            before = *c.errors.mismatch;
+            EXPECT_LT(*c.errors.rmse, 0.9 * before) << scene << " at " << resolution;
+            before = *c.errors.rmse;
+            mismatch = *c.errors.mismatch;
+            coarsest = resolution == 128 ? mismatch : coarsest;
         }
-        EXPECT_LT(before, 0.01) << scene;
+        EXPECT_LT(mismatch, 0.5 * coarsest) << scene;
+        EXPECT_LT(mismatch, 0.005) << scene;
     }
 }
 

@@ -43,6 +43,13 @@ ShadowMap add_silhouette_map(const FrameInput& input, const Recipe& recipe, cons
     return map;
 }
 
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    // Projected edges must be straight.
+    return recipe.placement != nullptr && recipe.placement->id == "paraboloid"
+               ? "map 'silhouette-map' draws straight edges and placement 'paraboloid' bends them; use auto or cube"
+               : "";
+}
+
 }  // namespace
 
 namespace parts {
@@ -56,6 +63,7 @@ const Part& map_silhouette_map() {
         p.citation = "SCH03";
         p.gives = "silhouettes";
         p.add_map = add_silhouette_map;
+        p.refuses = refuses;
         return p;
     }();
     return part;
