@@ -39,8 +39,9 @@ std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
         return {};
     }
     if (recipe.direct != nullptr) {
-        return fmt::format("casters = {} says what a map keeps, and direct '{}' draws none; valid is casters = all",
-                           casters, recipe.direct->id);
+        return fmt::format(
+            "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all", casters,
+            recipe.direct->id);
     }
     if (casters != "front" && casters != "back" && !recipe.map->separates_casters) {
         return fmt::format("casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, front, back",

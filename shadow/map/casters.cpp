@@ -7,6 +7,7 @@
 // objects at each other's silhouettes do not darken each other.
 #include "shadow/map/casters.h"
 
+#include "shadow/lookup/sample_pass.h"
 #include "shadow/map/caster_draw.h"
 
 namespace gn {
@@ -98,7 +99,7 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
                 pass.sample(second);
                 declare_views(pass, views);
             },
-            [=, bias = recipe.bias, limited = recipe.casters == "dual"](Recorder& r) {
+            [=, bias = applied_bias(recipe), limited = recipe.casters == "dual"](Recorder& r) {
                 set_viewport(r, views.views[i]);
                 r.bind(between_pipeline(limited));
                 set_views(r, views);

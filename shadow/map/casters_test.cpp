@@ -165,6 +165,13 @@ TEST(CastersRendered, ModesOtherThanTheNearestNeedNoBias) {
     }
 }
 
+TEST(CastersRendered, DualGrowsWithTheKernel) {
+    // Eight texels cover 85 degrees for one comparison; the kernel reaches two texels further.
+    const std::string recipe = std::string("pcf,casters=dual") + bare;
+    EXPECT_LE(*test::compare("tilted:angle=85", recipe).errors.acne, 1e-3);
+    EXPECT_GT(*test::compare("tilted:angle=85", recipe + ",bias.kernel=0").errors.acne, 0.02);
+}
+
 TEST(CastersRendered, SecondDepthLosesSheetsThatFaceTheLight) {
     EXPECT_LT(*test::compare("half-plane:hard=true", "hard").errors.leak, 0.02);
     EXPECT_GT(*test::compare("half-plane:hard=true", "hard,casters=back").errors.leak, 0.98);
@@ -222,7 +229,7 @@ TEST(CastersRefused, WhereAPartCannotServeThem) {
     };
     EXPECT_NE(refusal("pcf,casters=ids").find("lookups that compare ids: hard"), std::string::npos);
     EXPECT_NE(refusal("vsm,casters=midpoint").find("maps that keep it: depth"), std::string::npos);
-    EXPECT_NE(refusal("volumes,casters=back").find("draws none"), std::string::npos);
+    EXPECT_NE(refusal("volumes,casters=back").find("has none; valid is all"), std::string::npos);
     EXPECT_EQ(refusal("pcf,casters=midpoint"), "");
     EXPECT_EQ(refusal("hard,casters=ids"), "");
     EXPECT_EQ(refusal("vsm,casters=back"), "");
