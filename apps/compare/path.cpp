@@ -16,9 +16,12 @@ struct PathFrame {
     [[nodiscard]] PathView view() const {
         const Camera& camera = samples.camera;
         const float aspect = static_cast<float>(samples.width) / static_cast<float>(samples.height);
-        return {static_cast<int>(samples.width), static_cast<int>(samples.height),
+        return {static_cast<int>(samples.width),
+                static_cast<int>(samples.height),
                 cs_from_vs(camera, aspect) * vs_from_ws(camera),
-                2 * std::tan(camera.yfov / 2) / static_cast<float>(samples.height), samples.normal_ws, samples.position_ws};
+                2 * std::tan(camera.yfov / 2) / static_cast<float>(samples.height),
+                samples.normal_ws,
+                samples.position_ws};
     }
 };
 
@@ -37,7 +40,8 @@ PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_
         kept.errors.emplace_back();
         if (view.wanted(l) && frame.refused[l].empty()) {
             const PathTruth& truth = view.path_truth(index, l);
-            kept.errors.back() = signed_error(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
+            kept.errors.back() =
+                signed_error(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
         }
     }
     return kept;
