@@ -33,6 +33,14 @@ Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
     return add_forward_resolve(input, samples, light);
 }
 
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    return recipe.placement != nullptr && recipe.placement->id == "paraboloid"
+               ? "direct 'forward' follows straight rays through its map and placement 'paraboloid' bends them; use "
+                 "auto "
+                 "or cube"
+               : "";
+}
+
 }  // namespace
 
 namespace parts {
@@ -57,6 +65,7 @@ const Part& direct_forward() {
         p.params_type = "GnForwardParams";
         p.glsl = "shadow/direct/forward/forward.glsl";
         p.add_direct = add_forward;
+        p.refuses = refuses;
         return p;
     }();
     return part;
