@@ -2,12 +2,12 @@
 // Somebody else's renderer, in one page: it owns the device and the geometry, and asks Gnomon for a visibility image.
 #include "host_device.h"
 
-#include "gpu/device.h"
-#include "shadow/frame.h"
+#include "shadow/host.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+#include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -33,24 +33,32 @@ gn::Scene make_scene() {
     camera.position_ws = {0, 5, 7};
     camera.forward_ws = glm::normalize(vec3(0, -5, -7));
     scene.cameras = {camera};
-    gn::finish_scene(scene);
     return scene;
+}
+
+void demand(bool holds, const std::string& why) {
+    if (!holds) {
+        throw std::runtime_error(why);
+    }
 }
 
 void render(const char* output) {
     HostDevice host;
 
-    // Lend the device, hand over the scene, name a recipe.
-    const auto device = gn::Device::adopt({.instance = host.instance,
-                                           .physical = host.physical,
-                                           .device = host.device,
-                                           .queue = host.queue,
-                                           .queue_family = host.queue_family});
-    const gn::Scene scene = make_scene();
-    gn::SceneGpu uploaded = gn::upload_scene(*device, scene);
-    const gn::Recipe recipe = gn::load_recipe("pcf,resolution=2048");
-    const gn::FrameResult frame =
-        gn::render_frame(*device, uploaded, scene.camera(""), recipe, {.width = 320, .height = 240, .picture = false});
+    // Lend the device, hand over the scene, name a recipe; each call gives a value or a sentence.
+    auto session = gn::host::Session::adopt({.instance = host.instance,
+                                             .physical = host.physical,
+                                             .device = host.device,
+                                             .queue = host.queue,
+                                             .queue_family = host.queue_family});
+    demand(session.ok(), session.why());
+    const auto taken = session.value().set_scene(make_scene());
+    demand(taken.ok(), taken.why());
+    const gn::Camera& camera = session.value().scene()->cameras.front();
+    const auto rendered =
+        session.value().render(camera, "pcf,resolution=2048", {.width = 320, .height = 240, .picture = false});
+    demand(rendered.ok(), rendered.why());
+    const gn::FrameResult& frame = rendered.value();
 
     // V of each pixel, one image a light: what the host multiplies its own light with.
     const gn::Image& visibility = frame.visibility.at(0);
