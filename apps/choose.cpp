@@ -31,4 +31,13 @@ const CameraPath& find_path(const Scene& scene, const std::string& name) {
     fail("--path: scene '{}' has no camera path '{}'; {}", scene.name, name, suggest(name, known));
 }
 
+std::optional<Recipe> recipe_if_sound(const std::string& name) {
+    try {
+        return load_recipe(name);
+    } catch (const Error& error) {
+        fmt::print(stderr, "gnomon: left out: {}\n", error.what());
+        return std::nullopt;
+    }
+}
+
 }  // namespace gn

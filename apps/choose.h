@@ -2,7 +2,9 @@
 // What the command line names inside a scene.
 #pragma once
 
-#include "shadow/scene/scene.h"
+#include "shadow/recipe.h"
+
+#include <optional>
 
 namespace gn {
 
@@ -11,5 +13,8 @@ std::size_t find_light(const Scene& scene, const std::string& name);
 
 /// The camera path that --path names; "" is the scene's first. Throws Error listing the scene's paths.
 const CameraPath& find_path(const Scene& scene, const std::string& name);
+
+/// A shipped recipe, or nothing, with a warning on standard error, where it names what is not there.
+std::optional<Recipe> recipe_if_sound(const std::string& name);
 
 }  // namespace gn

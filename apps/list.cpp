@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "apps/choose.h"
 #include "apps/options.h"
 #include "apps/terminal.h"
 #include "shadow/metrics/metrics.h"
@@ -43,7 +44,11 @@ ordered_json parts() {
 ordered_json recipes() {
     ordered_json list = ordered_json::array();
     for (const std::string& name : recipe_names()) {
-        const Recipe recipe = load_recipe(name);
+        const std::optional<Recipe> found = recipe_if_sound(name);
+        if (!found) {
+            continue;
+        }
+        const Recipe& recipe = *found;
         list.push_back({{"name", name}, {"title", recipe.title}, {"citation", recipe.citation}});
     }
     return list;

@@ -129,6 +129,9 @@ int run(const RenderOptions& options) {
     fmt::print("{}: {} with {}, {}x{}, {} lights, on {}\n", options.output, scene.name, recipe.name, options.size.width,
                options.size.height, scene.lights.size(), device->info().name);
     const std::size_t refused = report_refusals(scene, frame);
+    for (const std::string& remark : frame.remarks) {
+        fmt::print(stderr, "gnomon: note: {}\n", remark);
+    }
     for (const std::string& message : device->messages()) {
         fmt::print(stderr, "gnomon: validation: {}\n", message);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Manual pages, put together from a part's .md and its parameter rows, or from a recipe's file.
+#include "apps/choose.h"
 #include "apps/options.h"
 #include "apps/terminal.h"
 #include "base/paths.h"
@@ -45,8 +46,11 @@ std::string parameter_table(const ParamBlock& block, std::string_view group, con
 std::string users_of(const Part& part) {
     std::string list;
     for (const std::string& name : recipe_names()) {
-        const Recipe recipe = load_recipe(name);
-        for (const Part* used : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        const std::optional<Recipe> recipe = recipe_if_sound(name);
+        if (!recipe) {
+            continue;
+        }
+        for (const Part* used : {recipe->placement, recipe->map, recipe->lookup, recipe->direct, recipe->visibility}) {
             if (used == &part) {
                 list += (list.empty() ? "" : ", ") + name;
             }
@@ -102,8 +106,8 @@ void show_recipe(const std::string& name) {
     if (mapped) {
         fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", part_name(recipe.placement, "auto"),
                    part_name(recipe.map, "none"), part_name(recipe.lookup, "none"));
-        fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, 16, 16384);
-        fmt::print("  casters     {} faces, of all, front, back\n", recipe.casters);
+        fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, min_resolution, max_resolution);
+        fmt::print("  casters     {}, of {}\n", recipe.casters, fmt::join(caster_names, ", "));
     } else {
         fmt::print("  direct      {}\n", part_name(recipe.direct, "none"));
     }

@@ -24,4 +24,5 @@ install(DIRECTORY recipes scenes base gpu shadow DESTINATION share/gnomon COMPON
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.h" PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.frag" PATTERN "*.vert"
         PATTERN "*.geom" PATTERN "*.md")
 install(DIRECTORY apps DESTINATION share/gnomon COMPONENT data
-        FILES_MATCHING PATTERN "*.html" PATTERN "*.css" PATTERN "*.js")
+        FILES_MATCHING PATTERN "*.html" PATTERN "*.css" PATTERN "*.js" PATTERN "*.json")
+install(FILES LICENSE DESTINATION share/gnomon COMPONENT data)

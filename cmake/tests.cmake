@@ -52,7 +52,8 @@ add_test(NAME format COMMAND ${CMAKE_SOURCE_DIR}/tools/check_format)
 
 # Every header compiles alone and twice: one source each, compiled but never linked. Once is enough, in the plain builds.
 if(NOT GNOMON_SANITIZE)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} base/*.h gpu/*.h shadow/*.h reference/*.h)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} base/*.h gpu/*.h shadow/*.h reference/*.h
+       scenes/*.h apps/*.h)
   set(header_sources "")
   foreach(header ${headers})
     string(MAKE_C_IDENTIFIER ${header} name)

@@ -188,6 +188,14 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
 }
 
 std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host) {
+    for (const auto& [given, what] : {std::pair{host.instance != VK_NULL_HANDLE, "instance"},
+                                      {host.physical != VK_NULL_HANDLE, "physical device"},
+                                      {host.device != VK_NULL_HANDLE, "device"},
+                                      {host.queue != VK_NULL_HANDLE, "queue"}}) {
+        if (!given) {
+            fail("the host lends no {}; instance, physical device, device and queue are needed", what);
+        }
+    }
     return std::make_unique<VulkanDevice>(host);
 }
 

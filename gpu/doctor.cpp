@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What this machine's Vulkan can do, in lines for people.
-#include "base/paths.h"
 #include "gpu/features.h"
 #include "gpu/instance.h"
 #include "gpu/vk_names.h"
@@ -103,15 +102,6 @@ DoctorReport examine_machine() {
     try {
         examine_into(report);
     } catch (const std::exception& error) {
-        report.lines.emplace_back(error.what());
-    }
-    try {
-        report.lines.push_back(fmt::format("data: {}", data_root().string()));
-        report.lines.push_back(fmt::format("cache: {}", cache_root().empty()
-                                                            ? "none is writable, so shaders are compiled anew"
-                                                            : cache_root().string()));
-    } catch (const std::exception& error) {
-        report.usable = false;
         report.lines.emplace_back(error.what());
     }
     return report;

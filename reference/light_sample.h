@@ -44,7 +44,7 @@ class LightSampler {
     /// The point of a light without extent.
     [[nodiscard]] LightPoint centre() const { return flat_ ? towards(centre_from_p_) : LightPoint{axis_, distance_}; }
     /// What the point adds to the irradiance of a surface with normal n where it is visible, divided by the density of
-    /// the samples: the mean over samples of V times this is C eq. 1.3.
+    /// the samples: the mean over samples of V times this is [EASW09] eq. 1.3.
     [[nodiscard]] float irradiance(const LightPoint& point, vec3 n_ws) const;
 
   private:

@@ -14,14 +14,14 @@ struct TruthOptions {
     int samples = 256;  ///< of the light per view sample; rounded up to a power of two
     uint seed = 0;
     int threads = 0;        ///< 0: all; changes nothing in the result
-    bool integral = false;  ///< also C eq. 1.3: sum of V x cosine-weighted radiance over the light
+    bool integral = false;  ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
 };
 
 struct TruthResult {
     std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
     std::vector<float> standard_error;  ///< per sample, of `visibility`
     std::vector<std::uint8_t> counted;  ///< 1 where gn_counted holds and a surface is seen
-    /// With options.integral: C eq. 1.3 without the material, lux; else empty. Range windows are left to shading.
+    /// With options.integral: [EASW09] eq. 1.3 without the material, lux; else empty. Range windows are left to shading.
     std::vector<float> irradiance;
     double mean_standard_error = 0;  ///< mean of standard_error over counted samples
     double seconds = 0;

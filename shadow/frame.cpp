@@ -95,6 +95,17 @@ struct HistoryStep {
     }
 };
 
+std::vector<std::string> remarks_of(const Recipe& recipe, const Scene& scene) {
+    std::vector<std::string> remarks;
+    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        const std::string remark = part != nullptr && part->remark != nullptr ? part->remark(scene, recipe) : "";
+        if (!remark.empty()) {
+            remarks.push_back(remark);
+        }
+    }
+    return remarks;
+}
+
 }  // namespace
 
 FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
@@ -102,6 +113,7 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
     HistoryStep step(options.history);
     FrameGraph graph(device);
     FrameResult result;
+    result.remarks = remarks_of(recipe, *scene.scene);
     const BuiltFrame frame = build(graph, scene, camera, recipe, options, result.refused);
 
     // The first run pays for shader compilation; the repeats are timed.

@@ -12,6 +12,7 @@ struct FrameResult {
     CpuSamples samples;
     std::vector<Image> visibility;     ///< one a light, one channel, in [0,1]; empty Image for lights not asked for
     std::vector<std::string> refused;  ///< one a light: the sentence why, or ""
+    std::vector<std::string> remarks;  ///< limits of the recipe's parts that show in this scene, one sentence each
     Image picture;                     ///< linear RGB radiance, cd/m^2
     GraphStatistics statistics;        ///< medians over the repeats
     std::vector<double> shadow_ms, frame_ms;   ///< one per repeat

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library's public boundary: what a foreign renderer calls. No exception leaves it; every failure is one sentence.
+// Only a broken invariant of the library's own (GN_CHECK) prints its values and aborts.
 //
 //     auto session = gn::host::Session::adopt({.instance = ..., .device = ..., .queue = ...});
 //     session.value().set_scene(std::move(scene));

@@ -38,10 +38,10 @@ class Part {
   public:
     std::string_view id;  ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
     Stage stage = Stage::lookup;
-    std::string_view title;     ///< "Percentage-closer filtering"
-    std::string_view citation;  ///< key in docs/references.bib
-    std::string_view needs;     ///< lookup: what the map must give ("depth", "moments"); else ""
-    std::string_view gives;     ///< map: what it gives; else ""
+    std::string_view title;          ///< "Percentage-closer filtering"
+    std::string_view citation;       ///< key in docs/references.bib
+    std::string_view needs;          ///< lookup: what the map must give ("depth", "moments"); else ""
+    std::string_view gives;          ///< map: what it gives; else ""
     bool separates_casters = false;  ///< map: serves casters = midpoint, dual, ids
     bool compares_ids = false;       ///< lookup: compares objects where casters = ids
     LightKinds lights = all_lights;
@@ -63,6 +63,8 @@ class Part {
     std::string (*prologue)(const Recipe&) = nullptr;
     /// A combination it cannot do: the sentence why, or "". Asked before anything is drawn.
     std::string (*refuses)(const Scene&, const Light&, const Recipe&) = nullptr;
+    /// What the picture will show of a limit that does not refuse it: one sentence, or "".
+    std::string (*remark)(const Scene&, const Recipe&) = nullptr;
     /// Tap counts and the like that become specialization constants of the resolve pass.
     SpecConstants (*constants)(const Recipe&) = nullptr;
 };

@@ -41,9 +41,7 @@ const ParamTable bias_params = param_table<GnBias>({
 
 namespace {
 
-constexpr int min_resolution = 16, max_resolution = 16384;
 constexpr std::uintmax_t max_recipe_bytes = 1U << 20U;
-constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
 constexpr std::array<std::string_view, 8> top_level_keys{"placement",  "map",        "lookup",  "direct",
                                                          "visibility", "resolution", "casters", "bias"};
 

@@ -38,6 +38,10 @@ struct Recipe {
     [[nodiscard]] const Part& placement_for(const GnLight& light) const;
 };
 
+/// Valid values of `resolution` and `casters`.
+inline constexpr int min_resolution = 16, max_resolution = 16384;
+inline constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
+
 extern const ParamTable bias_params;  ///< rows of GnBias
 
 /// Reads "pcf,resolution=2048,pcf.taps=25": a name in recipes/ or a path to a .toml, then overrides.

@@ -4,6 +4,7 @@
 layout_test.py runs each on the real tree, where it must find nothing, and on a tiny bad tree, where it must find something.
 """
 
+import os
 import pathlib
 import re
 import subprocess
@@ -262,7 +263,7 @@ def machine_paths(tree):
 
 
 def pages_exist(tree):
-    """A page that a comment names, or that another page names with its folder or links to, is there."""
+    """A page that a comment names, or that another page names with its folder or links to, is there; a picture too."""
     known = {pathlib.PurePosixPath(name).name for name in tree.having({".md"})}
     named = re.compile(r"(?<![\w<>*/])(?:[\w.-]+/)*([A-Za-z][\w-]*\.md)\b")
     linked = re.compile(r"(?:\]\(|/)([A-Za-z][\w-]*\.md)\b")
@@ -274,6 +275,10 @@ def pages_exist(tree):
     for name in tree.having({".md"}):
         complaints += [f"{name}: points to {page}, which is not in the tree"
                        for page in linked.findall(tree.text(name)) if page not in known]
+        here = pathlib.PurePosixPath(name).parent
+        complaints += [f"{name}: shows {picture}, which is not in the tree"
+                       for picture in re.findall(r"!\[[^\]]*\]\(([^)\s]+)\)", tree.text(name))
+                       if os.path.normpath(here / picture) not in tree.files]
     return complaints
 
 

@@ -203,6 +203,10 @@ class Comparer {
                            light.reason);
             }
         }
+        for (const std::string& remark : run.remarks) {
+            progress_.clear();
+            fmt::print(stderr, "gnomon: {} with {}: note: {}\n", run.scene, run.recipe, remark);
+        }
         if (run.status == "failed") {
             worsen(exit_failed);
         }

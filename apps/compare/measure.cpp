@@ -209,6 +209,8 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     frame_options.only_light = view.only_light();
     const FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.camera(), asked.recipe, frame_options);
 
+    run.remarks = frame.remarks;
+
     // Hold every light against the truth, then the pictures.
     const PictureNames names{options.folder, fmt::format("pictures/{}-{}-{}", slug(view.result.name),
                                                          slug(asked.recipe.name), run_key.substr(0, 8))};

@@ -62,6 +62,7 @@ struct RunResult {
     std::string title, citation, paragraph, picture, error_map, command;
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<InsideResult> inside;
+    std::vector<std::string> remarks;                 ///< limits of the recipe that show in this scene
     std::string path;                                 ///< the camera path that was followed, or ""
     std::vector<std::optional<double>> path_flicker;  ///< of each of its steps, served lights pooled
 };

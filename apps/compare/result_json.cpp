@@ -91,6 +91,7 @@ void add_report_fields(ordered_json& json, const RunResult& run) {
                                   {"legend", shown.legend},
                                   {"of_view", shown.of_view}});
     }
+    json["remarks"] = run.remarks;
     json["path"] = run.path;
     json["path_flicker"] = ordered_json::array();
     for (const std::optional<double>& step : run.path_flicker) {
@@ -214,6 +215,7 @@ RunResult run_from_json(const ordered_json& json) {
         run.inside.push_back(
             {shown.at("name"), shown.at("light"), shown.at("picture"), shown.at("legend"), shown.at("of_view")});
     }
+    run.remarks = json.at("remarks");
     run.path = json.at("path");
     for (const ordered_json& step : json.at("path_flicker")) {
         run.path_flicker.push_back(optional_number(step));

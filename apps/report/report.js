@@ -299,6 +299,7 @@ function plainTable(caption, heads, rows) {
 function runDetails(run) {
   return el('details', {}, el('summary', {}, el('strong', {}, nameOf(run)), ' ', el('span', {class: 'soft'}, run.title || '')),
     run.paragraph ? el('p', {}, run.paragraph, run.citation ? ` [${run.citation}]` : '') : null,
+    ...run.remarks.map(remark => el('p', {}, el('strong', {}, 'Note: '), `${remark}.`)),
     run.reason ? el('p', {}, statusOf(run), ' ', run.reason) : null,
     command(run.command),
     el('div', {class: 'columns'},

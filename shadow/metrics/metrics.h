@@ -24,7 +24,7 @@ struct MetricInfo {
     std::string_view name, sentence;
     std::optional<double> Errors::*value;
 };
-/// In the order of DESIGN: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker.
+/// In the order of the report: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker.
 std::span<const MetricInfo> all_metrics();
 
 /// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a

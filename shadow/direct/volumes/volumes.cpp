@@ -7,6 +7,9 @@
 //
 // Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_stencil.cpp.
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/view/draw.h"
+
+#include <algorithm>
 
 namespace gn::parts {
 
@@ -20,6 +23,19 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     const TextureHandle counts = add_receivers(input, buffers);
     add_stencil(input, buffers, counts);
     return add_stencil_resolve(input, counts);
+}
+
+std::string remark(const Scene& scene, const Recipe& recipe) {
+    const bool masked = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                    [&](const Object& object) { return is_masked(scene, object); });
+    if (!masked) {
+        return "";
+    }
+    return recipe.of<GnVolumesParams>("volumes").masked == GN_VOLUMES_OPAQUE
+               ? "volumes cannot see alpha: the masked polygons of this scene cast as a whole (volumes.masked=skip "
+                 "leaves them out)"
+               : "volumes cannot see alpha: the masked polygons of this scene cast nothing (volumes.masked=opaque "
+                 "casts them whole)";
 }
 
 }  // namespace
@@ -43,6 +59,7 @@ const Part& direct_volumes() {
         .params_type = "GnVolumesParams",
         .glsl = "shadow/direct/volumes/volumes.glsl",
         .add_direct = add_volumes,
+        .remark = remark,
     };
     return part;
 }

@@ -2,6 +2,8 @@
 // Hard shadows with straight edges: one comparison, with the depth on the receiver's side of the silhouette.
 //
 // Based on: Sen, Cammarano, Hanrahan. Shadow Silhouette Maps. SIGGRAPH 2003. [SCH03]
+//
+// Stands on: shadow/map/silhouette_map (what a cell stores)
 #include "shadow/part.h"
 
 namespace gn {

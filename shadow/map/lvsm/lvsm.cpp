@@ -3,7 +3,8 @@
 //
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 //
-// Also here: lvsm_passes.h, lloyd.cpp, warp.cpp.
+// Stands on: shadow/map/vsm (a layer is a variance map of warped depth)
+// Also here: lvsm_passes.h, lloyd.cpp, lloyd.glsl, warp.cpp.
 #include "shadow/map/lvsm/lvsm.h"
 
 #include "shadow/map/lvsm/lvsm_passes.h"
