@@ -16,7 +16,7 @@ namespace {
 constexpr int largest_side = 16384;
 // Deflate yields at most 1032 bytes for one, and a JPEG spends at least a bit on 64 pixels: fewer file bytes than
 // this cannot hold the picture that the header promises.
-constexpr std::size_t most_pixels_per_byte = 1032 * 8;
+constexpr std::size_t most_pixels_per_byte = std::size_t{1032} * 8;
 
 enum class Format { png, jpeg, other };
 

@@ -138,6 +138,7 @@ std::vector<std::byte> encode_exr(const Image& image, std::span<const std::strin
 /// Where a file's channel goes in the picture: R, G, B, A in that order, all others as the file has them.
 std::vector<std::size_t> picture_order(const EXRHeader& header) {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(header.num_channels));
     for (int c = 0; c < header.num_channels; ++c) {
         names.emplace_back(header.channels[c].name);
     }

@@ -38,7 +38,7 @@ fs::path find_data() {
     // Prefer the installed or bundled folder beside the executable over the source tree.
     std::error_code none;
     const fs::path executable = fs::read_symlink("/proc/self/exe", none);
-    const fs::path installed = (executable.parent_path() / "../share/gnomon").lexically_normal();
+    fs::path installed = (executable.parent_path() / "../share/gnomon").lexically_normal();
     if (!none && holds_data(installed)) {
         return installed;
     }

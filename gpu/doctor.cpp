@@ -38,14 +38,14 @@ std::string format_row(VkPhysicalDevice physical, VkFormat format) {
 }
 
 void describe_device(const Candidate& candidate, std::vector<std::string>& lines) {
-    lines.push_back("features that techniques may ask for:");
+    lines.emplace_back("features that techniques may ask for:");
     for (int i = 0; i < feature_count; ++i) {
         const auto feature = static_cast<Feature>(i);
         const bool present = candidate.features[static_cast<std::size_t>(i)];
         lines.push_back(fmt::format("  {:<26} {}", feature_name(feature),
                                     present ? "yes" : fmt::format("no: {}", feature_consequence(feature))));
     }
-    lines.push_back("formats:");
+    lines.emplace_back("formats:");
     for (const VkFormat format :
          {VK_FORMAT_D16_UNORM, VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT,
           VK_FORMAT_R8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16_UNORM, VK_FORMAT_R16G16B16A16_UNORM,
@@ -54,7 +54,7 @@ void describe_device(const Candidate& candidate, std::vector<std::string>& lines
         lines.push_back(format_row(candidate.physical, format));
     }
     const VkPhysicalDeviceLimits& limits = candidate.properties.limits;
-    lines.push_back("limits:");
+    lines.emplace_back("limits:");
     lines.push_back(fmt::format("  largest texture            {} x {}, {} layers", limits.maxImageDimension2D,
                                 limits.maxImageDimension2D, limits.maxImageArrayLayers));
     lines.push_back(fmt::format("  colour attachments         {}", limits.maxColorAttachments));

@@ -14,7 +14,7 @@ namespace gn {
 
 struct Fingerprint {
     std::uint64_t low = 0, high = 0;
-    auto operator<=>(const Fingerprint&) const = default;
+    auto operator<=>(const Fingerprint&) const = default;  // NOLINT(modernize-use-nullptr): of the default itself
     /// 32 hexadecimal digits.
     [[nodiscard]] std::string hex() const;
 };

@@ -233,6 +233,7 @@ const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentForma
     const Specialization specialization(desc.constants);
     std::vector<Module> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
+    stages.reserve(shaders.size());
     for (const CompiledShader* shader : shaders) {
         stages.push_back(modules.emplace_back(device_.vk(), *shader, specialization).stage());
     }

@@ -11,7 +11,7 @@ namespace {
 /// The quoted paths of the text's include lines, in order.
 std::vector<std::string> includes_of(std::string_view text) {
     std::vector<std::string> paths;
-    for (std::size_t at = text.find("#"); at != std::string_view::npos; at = text.find('#', at + 1)) {
+    for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
         std::size_t word = text.find_first_not_of(" \t", at + 1);
         if (word == std::string_view::npos || text.compare(word, 7, "include") != 0) {
             continue;

@@ -45,9 +45,9 @@ enum Decoration : std::uint32_t {
     array_stride = 6,
     matrix_stride = 7,
     buffer_block = 3,
-    binding_ = 33,
+    binding_number = 33,
     descriptor_set = 34,
-    offset_ = 35
+    byte_offset = 35
 };
 enum StorageClass : std::uint32_t { uniform_constant = 0, uniform = 2, push_constant = 9, storage_buffer = 12 };
 
@@ -204,7 +204,7 @@ std::uint32_t bytes_of(const Module& module, std::uint32_t id, std::uint32_t str
         case op_type_struct: {
             std::uint32_t bytes = 0;
             for (std::uint32_t member = 0; member < type.operands.size(); ++member) {
-                const auto at = module.member_decorations.find({id, member, offset_});
+                const auto at = module.member_decorations.find({id, member, byte_offset});
                 const auto stride = module.member_decorations.find({id, member, matrix_stride});
                 bytes = std::max(bytes, (at != module.member_decorations.end() ? at->second : 0) +
                                             bytes_of(module, type.operands[member],
@@ -290,7 +290,7 @@ Reflection reflect(Words spirv, const std::string& what) {
                  *module.decoration(variable.id, descriptor_set));
         }
         ShaderBinding binding = describe(module, variable, pointee, where);
-        binding.binding = module.decoration(variable.id, binding_).value_or(0);
+        binding.binding = module.decoration(variable.id, binding_number).value_or(0);
         reflection.bindings[label] = binding;
     }
     return reflection;

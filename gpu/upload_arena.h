@@ -47,7 +47,7 @@ class UploadArena {
     }
 
   private:
-    static constexpr VkDeviceSize chunk_bytes = 256 * 1024;
+    static constexpr VkDeviceSize chunk_bytes = VkDeviceSize{256} * 1024;
     static constexpr VkDeviceSize alignment = 256;  ///< the most that Vulkan lets a device ask for
 
     Device& device_;
