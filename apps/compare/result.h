@@ -21,7 +21,7 @@ inline constexpr int schema_version = 1;
 struct Spread {
     std::optional<double> median, min, max;
 };
-Spread spread_of(std::vector<double> values);
+Spread spread_of(const std::vector<double>& values);
 
 struct LightResult {
     std::string name, status = "ok", reason;  ///< status: ok or refused

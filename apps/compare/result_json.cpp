@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/result.h"
 
+#include "base/stats.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -141,15 +143,12 @@ ordered_json document(const Comparison& comparison, bool for_report) {
 
 }  // namespace
 
-Spread spread_of(std::vector<double> values) {
+Spread spread_of(const std::vector<double>& values) {
     if (values.empty()) {
         return {};
     }
-    // The median of an even count is the mean of the middle two.
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    const double median = values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-    return {median, values.front(), values.back()};
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return {median(values), *least, *most};
 }
 
 ordered_json run_json(const RunResult& run, bool for_report) {

@@ -182,4 +182,23 @@ void add_mips(const FrameInput& input, TextureHandle texture) {
     }
 }
 
+ShadowMap filtered_map(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius, std::uint32_t mips,
+                       int anisotropy) {
+    ShadowMap map;
+    map.texture = add_blur(input, source, kernel, radius, mips);
+    add_mips(input, map.texture);
+    map.sampler = trilinear();
+    map.sampler.anisotropy = static_cast<float>(anisotropy);
+    return map;
+}
+
+Guard blur_guard(BlurKernel kernel, int radius) {
+    return {.texels = kernel == BlurKernel::none ? 0.0F : static_cast<float>(radius)};
+}
+
+std::string refuse_samples(std::string_view parameter, int samples) {
+    return samples == 1 || samples == 4 ? ""
+                                        : fmt::format("{} = {} is not offered; valid are 1 and 4", parameter, samples);
+}
+
 }  // namespace gn

@@ -28,6 +28,14 @@ TextureHandle add_blur(const FrameInput& input, TextureHandle source, BlurKernel
 
 /// Fills the mip chain of every layer by halving boxes.
 void add_mips(const FrameInput& input, TextureHandle texture);
+/// The end that blurred maps share: blur, mipmap, and read trilinearly with this anisotropy.
+ShadowMap filtered_map(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius, std::uint32_t mips,
+                       int anisotropy);
+/// How far a blurred map's texels reach.
+Guard blur_guard(BlurKernel kernel, int radius);
+/// The sentence that refuses a count of samples that add_moments does not take, or "". `parameter`: "vsm.samples".
+std::string refuse_samples(std::string_view parameter, int samples);
+
 /// Levels of a full chain for this resolution.
 std::uint32_t full_chain(std::uint32_t resolution);
 

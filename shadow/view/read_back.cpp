@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/view/read_back.h"
 
+#include "base/stats.h"
+
 #include <algorithm>
 
 namespace gn {
@@ -11,15 +13,6 @@ std::vector<T> as_vector(const std::vector<std::byte>& bytes) {
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) {
-        return 0;
-    }
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 }  // namespace

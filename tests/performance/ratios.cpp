@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What shadows cost over the least that any method must pay, as ratios of one run: `make bench` prints the table of
 // docs/performance.md. Nothing here is asserted.
+#include "base/stats.h"
 #include "shadow/frame.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace gn {
@@ -19,11 +19,6 @@ Part fetching(std::string_view id) {
     part.needs = "depth";
     part.glsl = "tests/performance/fetch.glsl";
     return part;
-}
-
-double median_of(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 struct Measured {
@@ -85,7 +80,7 @@ void main() { gl_Position = push.cs_from_ws * vec4(in_position_ws, 1.0); }
         graph.execute(true);
         times.push_back(graph.statistics().passes.at(0).ms);
     }
-    return median_of(times);
+    return median(times);
 }
 
 void print_row(const char* what, double a, double b) {

@@ -50,17 +50,12 @@ ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const L
     const TextureHandle basis = add_basis(input, depth, params, mips);
 
     // Blur and mipmap.
-    ShadowMap map;
-    map.texture = add_blur(input, basis, static_cast<BlurKernel>(params.blur), params.radius, mips);
-    add_mips(input, map.texture);
-    map.sampler = trilinear();
-    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
-    return map;
+    return filtered_map(input, basis, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
 }
 
 Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnConvolutionParams>("convolution");
-    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
 }
 
 ParamTable rows() {

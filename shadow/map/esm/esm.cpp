@@ -29,24 +29,19 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap; the fallback reads what was drawn.
-    ShadowMap map;
-    map.texture = add_blur(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips);
+    ShadowMap map =
+        filtered_map(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
     map.extra = params.fallback != 0 && map.texture != raw ? raw : TextureHandle{};
-    add_mips(input, map.texture);
-    map.sampler = trilinear();
-    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
     return map;
 }
 
 Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnEsmParams>("esm");
-    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
-    const int samples = recipe.of<GnEsmParams>("esm").samples;
-    return samples == 1 || samples == 4 ? ""
-                                        : fmt::format("esm.samples = {} is not offered; valid are 1 and 4", samples);
+    return refuse_samples("esm.samples", recipe.of<GnEsmParams>("esm").samples);
 }
 
 }  // namespace

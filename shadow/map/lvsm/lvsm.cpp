@@ -36,13 +36,11 @@ ShadowMap add_lvsm(const FrameInput& input, const Recipe& recipe, const LightVie
 
 Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnLvsmParams>("lvsm");
-    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
-    const int samples = recipe.of<GnLvsmParams>("lvsm").samples;
-    return samples == 1 || samples == 4 ? ""
-                                        : fmt::format("lvsm.samples = {} is not offered; valid are 1 and 4", samples);
+    return refuse_samples("lvsm.samples", recipe.of<GnLvsmParams>("lvsm").samples);
 }
 
 ParamTable rows() {

@@ -39,10 +39,7 @@ Guard guard(const Recipe& recipe) {
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
-    const int samples = recipe.of<GnSatVsmParams>("sat-vsm").samples;
-    return samples == 1 || samples == 4
-               ? ""
-               : fmt::format("sat-vsm.samples = {} is not offered; valid are 1 and 4", samples);
+    return refuse_samples("sat-vsm.samples", recipe.of<GnSatVsmParams>("sat-vsm").samples);
 }
 
 ParamTable rows() {

@@ -26,23 +26,16 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    ShadowMap map;
-    map.texture = add_blur(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips);
-    add_mips(input, map.texture);
-    map.sampler = trilinear();
-    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
-    return map;
+    return filtered_map(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
 }
 
 Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnVsmParams>("vsm");
-    return {.texels = params.blur == 0 ? 0.0F : static_cast<float>(params.radius)};
+    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
-    const int samples = recipe.of<GnVsmParams>("vsm").samples;
-    return samples == 1 || samples == 4 ? ""
-                                        : fmt::format("vsm.samples = {} is not offered; valid are 1 and 4", samples);
+    return refuse_samples("vsm.samples", recipe.of<GnVsmParams>("vsm").samples);
 }
 
 }  // namespace
