@@ -182,9 +182,9 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& 
         return {};
     }
     Rectangle r = least_rectangle(points);
-    const double metres_as_tangent = 0.0;  // a world radius reaches beyond the body only where nothing receives
-    widen(r.min.x, r.max.x, guard, metres_as_tangent, resolution);
-    widen(r.min.y, r.max.y, guard, metres_as_tangent, resolution);
+    // A world radius reaches beyond the body only where nothing receives, so that only texels widen the view.
+    widen(r.min.x, r.max.x, guard, 0.0, resolution);
+    widen(r.min.y, r.max.y, guard, 0.0, resolution);
     const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
     const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
     return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};

@@ -29,7 +29,6 @@ struct Material {
     float alpha_cutoff = 0.5F;                 ///< a texel with alpha < cutoff is not there
     int base_color_texture = -1;               ///< index into Scene::textures, or -1
     bool double_sided = true;
-    /// texture coordinates are transformed by this at load time already; kept for reports only
 };
 
 struct Texture {
@@ -111,7 +110,7 @@ const std::vector<BuiltinScene>& builtin_scenes();
 /// Makes a built-in scene. Throws Error listing the known names.
 Scene make_builtin_scene(const std::string& name_and_parameters);
 
-/// Luminous parts of a Vulkan projection for a camera: cs_from_ws with reversed depth (near 1, far 0).
+/// The camera as matrices: Vulkan clip space with reversed depth (near 1, far 0).
 mat4 vs_from_ws(const Camera& camera);
 mat4 cs_from_vs(const Camera& camera, float aspect);
 
