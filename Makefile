@@ -52,7 +52,10 @@ bundle: build
 	@tools/bundle --build $(RELEASE) --output build/gnomon-bundle --try
 
 pictures: build
+	@tools/install_packages python3-matplotlib
 	@$(CACHES) tools/make_pictures $(GNOMON) docs/pictures
+	@for curves in docs/curves/*.json; do \
+	    tools/draw_curves $$curves docs/pictures/$$(basename $$curves .json).svg || exit 1; done
 
 docs: build
 	@tools/make_catalogue $(GNOMON) build/catalogue.md
