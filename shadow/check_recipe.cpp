@@ -4,6 +4,7 @@
 
 #include "shadow/map/casters.h"
 
+#include <algorithm>
 #include <array>
 
 namespace gn {
@@ -60,8 +61,9 @@ std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
     return {};
 }
 
+constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
+
 void check_part(const Part& part, const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
-    constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
     const std::string_view stage = stage_names[static_cast<std::size_t>(part.stage)];
     if (!part.lights.has(light.shape.kind)) {
         refuse("{} '{}' does not serve {} lights such as '{}'; it serves {} lights", stage, part.id,
@@ -95,7 +97,31 @@ void check_complete(const Recipe& recipe) {
     }
 }
 
+std::string placement_remark(const Recipe& recipe, const Scene& scene) {
+    if (recipe.placement == nullptr) {
+        return {};
+    }
+    std::string others;
+    for (uint kind = 0; kind < kinds.size(); ++kind) {
+        const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                        [&](const Light& l) { return l.shape.kind == kind; });
+        if (light != scene.lights.end() && !recipe.placement->lights.has(kind)) {
+            others += fmt::format("{}{} lights by '{}'", others.empty() ? "" : ", ", kinds.at(kind),
+                                  recipe.placement_for(light->shape).id);
+        }
+    }
+    return others.empty() ? ""
+                          : fmt::format("placement '{}' serves {} lights; placed otherwise: {}", recipe.placement->id,
+                                        recipe.placement->lights.names(), others);
+}
+
 void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
+    // A placement is named for the lights that it serves; where there is none of them, it was named in vain.
+    const auto served = [&](const Light& l) { return recipe.placement->lights.has(l.shape.kind); };
+    if (recipe.placement != nullptr && std::none_of(scene.lights.begin(), scene.lights.end(), served)) {
+        check_part(*recipe.placement, recipe, scene, light, device);
+    }
+
     // The stages must fit each other before anything is asked of one.
     if (recipe.map != nullptr && recipe.lookup != nullptr) {
         if (const std::string sentence = mismatch_of(*recipe.map, *recipe.lookup); !sentence.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The half of check_recipe (shadow/recipe.h) that needs neither scene nor device.
+// What is said of a recipe before anything is drawn, beside check_recipe (shadow/recipe.h).
 #pragma once
 
 #include "shadow/recipe.h"
@@ -8,5 +8,8 @@ namespace gn {
 
 /// Throws Error when a map stands without a lookup or a lookup without a map: no scene can be drawn with it.
 void check_complete(const Recipe& recipe);
+
+/// One sentence on the scene's lights that the named placement does not serve and another one places, or "".
+std::string placement_remark(const Recipe& recipe, const Scene& scene);
 
 }  // namespace gn

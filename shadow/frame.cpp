@@ -2,6 +2,7 @@
 // The frame as a table of contents: one call a stage, in flow order.
 #include "shadow/frame.h"
 
+#include "shadow/check_recipe.h"
 #include "shadow/history.h"
 #include "shadow/view/read_back.h"
 
@@ -97,6 +98,9 @@ struct HistoryStep {
 
 std::vector<std::string> remarks_of(const Recipe& recipe, const Scene& scene) {
     std::vector<std::string> remarks;
+    if (std::string remark = placement_remark(recipe, scene); !remark.empty()) {
+        remarks.push_back(std::move(remark));
+    }
     for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
         const std::string remark = part != nullptr && part->remark != nullptr ? part->remark(scene, recipe) : "";
         if (!remark.empty()) {

@@ -254,7 +254,7 @@ const ParamBlock& Recipe::block(const Part& part) const {
 }
 
 const Part& Recipe::placement_for(const GnLight& light) const {
-    if (placement != nullptr) {
+    if (placement != nullptr && placement->lights.has(light.kind)) {
         return *placement;
     }
     return find_part(Stage::placement, light.kind == GN_LIGHT_POINT ? "cube" : "fit");

@@ -14,7 +14,8 @@ struct Recipe {
     std::string name;       ///< "pcf"
     std::string overrides;  ///< "resolution=2048,pcf.taps=25", as given; "" when none
     std::string title, paragraph, citation;
-    const Part* placement = nullptr;  ///< null: chosen by light kind (fit or cube)
+    const Part* placement =
+        nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
     const Part* map = nullptr;
     const Part* lookup = nullptr;
     const Part* direct = nullptr;      ///< set instead of the three above; all null: no shadows, V = 1
@@ -34,7 +35,7 @@ struct Recipe {
         return found->second.template as<Params>();
     }
     [[nodiscard]] const ParamBlock& block(const Part& part) const;
-    /// The placement for a light: as named, else cube for point lights and fit for all others.
+    /// The placement for a light: as named where that serves such lights, else cube for point lights and fit for all others.
     [[nodiscard]] const Part& placement_for(const GnLight& light) const;
 };
 
@@ -49,7 +50,8 @@ extern const ParamTable bias_params;  ///< rows of GnBias
 Recipe load_recipe(const std::string& name_and_overrides);
 /// Names of the shipped recipes, sorted.
 std::vector<std::string> recipe_names();
-/// Throws Refusal when the recipe cannot serve the light or lacks a device feature or its stages do not fit.
+/// Throws Refusal when the recipe cannot serve the light, lacks a device feature, names a placement for none of the scene's
+/// lights, or its stages do not fit.
 void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device);
 
 }  // namespace gn

@@ -3,6 +3,7 @@
 #include "shadow/recipe.h"
 
 #include "base/paths.h"
+#include "shadow/check_recipe.h"
 
 #include <gtest/gtest.h>
 
@@ -131,8 +132,27 @@ TEST(Recipes, AutomaticPlacementSuitsTheLight) {
         {GN_LIGHT_DIRECTIONAL, "fit"}, {GN_LIGHT_SPOT, "fit"}, {GN_LIGHT_POINT, "cube"}, {GN_LIGHT_RECTANGLE, "fit"}};
     for (const auto& [kind, id] : expected) {
         EXPECT_EQ(recipe.placement_for(light_of(kind).shape).id, id);
-        EXPECT_EQ(load_recipe("hard,placement=single").placement_for(light_of(kind).shape).id, "single");
     }
+}
+
+TEST(Recipes, ANamedPlacementLeavesOtherLightsToTheAutomaticOne) {
+    const Recipe recipe = load_recipe("hard,placement=cascades");
+    EXPECT_EQ(recipe.placement_for(light_of(GN_LIGHT_DIRECTIONAL).shape).id, "cascades");
+    EXPECT_EQ(recipe.placement_for(light_of(GN_LIGHT_POINT).shape).id, "cube");
+    EXPECT_EQ(recipe.placement_for(light_of(GN_LIGHT_SPOT).shape).id, "fit");
+
+    // It says so, and refuses where it was named for no light at all.
+    Scene scene;
+    const AnsweringDevice device;
+    scene.lights = {light_of(GN_LIGHT_POINT), light_of(GN_LIGHT_SPOT)};
+    EXPECT_THROW(check_recipe(recipe, scene, scene.lights[0], device), Refusal);
+    scene.lights.push_back(light_of(GN_LIGHT_DIRECTIONAL));
+    EXPECT_NO_THROW(check_recipe(recipe, scene, scene.lights[0], device));
+    EXPECT_EQ(placement_remark(recipe, scene),
+              "placement 'cascades' serves directional lights; placed otherwise: spot lights by 'fit', point lights by "
+              "'cube'");
+    EXPECT_EQ(placement_remark(load_recipe("hard"), scene), "");
+    EXPECT_EQ(placement_remark(load_recipe("hard,placement=lispsm"), scene), "");
 }
 
 TEST(Recipes, OverridesAreLaidOverTheFile) {
