@@ -82,6 +82,12 @@ void check_part(const Part& part, const Recipe& recipe, const Scene& scene, cons
     }
 }
 
+/// A placement is named for the lights that it serves.
+bool serves_some(const Part& placement, const Scene& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [&](const Light& light) { return placement.lights.has(light.shape.kind); });
+}
+
 }  // namespace
 
 void check_complete(const Recipe& recipe) {
@@ -98,7 +104,7 @@ void check_complete(const Recipe& recipe) {
 }
 
 std::string placement_remark(const Recipe& recipe, const Scene& scene) {
-    if (recipe.placement == nullptr) {
+    if (recipe.placement == nullptr || !serves_some(*recipe.placement, scene)) {
         return {};
     }
     std::string others;
@@ -116,9 +122,8 @@ std::string placement_remark(const Recipe& recipe, const Scene& scene) {
 }
 
 void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
-    // A placement is named for the lights that it serves; where there is none of them, it was named in vain.
-    const auto served = [&](const Light& l) { return recipe.placement->lights.has(l.shape.kind); };
-    if (recipe.placement != nullptr && std::none_of(scene.lights.begin(), scene.lights.end(), served)) {
+    // A placement that serves none of the lights was named in vain.
+    if (recipe.placement != nullptr && !serves_some(*recipe.placement, scene)) {
         check_part(*recipe.placement, recipe, scene, light, device);
     }
 

@@ -146,6 +146,7 @@ TEST(Recipes, ANamedPlacementLeavesOtherLightsToTheAutomaticOne) {
     const AnsweringDevice device;
     scene.lights = {light_of(GN_LIGHT_POINT), light_of(GN_LIGHT_SPOT)};
     EXPECT_THROW(check_recipe(recipe, scene, scene.lights[0], device), Refusal);
+    EXPECT_EQ(placement_remark(recipe, scene), "");
     scene.lights.push_back(light_of(GN_LIGHT_DIRECTIONAL));
     EXPECT_NO_THROW(check_recipe(recipe, scene, scene.lights[0], device));
     EXPECT_EQ(placement_remark(recipe, scene),
