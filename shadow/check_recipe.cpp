@@ -69,7 +69,12 @@ void check_part(const Part& part, const Recipe& recipe, const Scene& scene, cons
         refuse("{} '{}' does not serve {} lights such as '{}'; it serves {} lights", stage, part.id,
                kinds.at(light.shape.kind), light.name, part.lights.names());
     }
-    for (const Feature feature : part.features) {
+    std::vector<Feature> features = part.features;
+    if (part.features_for != nullptr) {
+        const std::vector<Feature> more = part.features_for(recipe);
+        features.insert(features.end(), more.begin(), more.end());
+    }
+    for (const Feature feature : features) {
         if (!device.has(feature)) {
             refuse("{} '{}' needs the feature {}, which device '{}' lacks", stage, part.id, feature_name(feature),
                    device.info().name);

@@ -46,6 +46,8 @@ class Part {
     bool compares_ids = false;       ///< lookup: compares objects where casters = ids
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
+    /// Further features that its parameters ask for; may be null.
+    std::vector<Feature> (*features_for)(const Recipe&) = nullptr;
     ParamTable params;
     std::string_view params_type;  ///< GLSL and C++ name of the struct: "GnPcfParams"; "" when there are none
     std::string_view glsl;         ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none

@@ -290,6 +290,19 @@ TEST(CheckRecipe, MissingFeaturesAreNamed) {
     EXPECT_EQ(refusal_of(recipe, GN_LIGHT_SPOT, device), "");
 }
 
+TEST(CheckRecipe, MapsOfThirtyTwoBitsNeedTheirLinearFilter) {
+    AnsweringDevice device;
+    for (const char* recipe : {"vsm", "esm", "evsm4", "msm,msm.format=float32", "lvsm,lvsm.format=float32"}) {
+        expect_has(refusal_of(load_recipe(recipe), GN_LIGHT_SPOT, device),
+                   {std::string(feature_name(Feature::float32_filter)), "paper device"});
+    }
+    for (const char* recipe : {"sat-vsm", "evsm4,evsm.format=float16", "msm", "lvsm", "convolution"}) {
+        EXPECT_EQ(refusal_of(load_recipe(recipe), GN_LIGHT_SPOT, device), "") << recipe;
+    }
+    device.features.insert(Feature::float32_filter);
+    EXPECT_EQ(refusal_of(load_recipe("vsm"), GN_LIGHT_SPOT, device), "");
+}
+
 TEST(CheckRecipe, APartsOwnSentenceIsPassedOn) {
     Part part;
     part.id = "paper";

@@ -75,6 +75,15 @@ void main() {{
     return text;
 }
 
+bool blurs(int kernel, int radius) {
+    return kernel != GN_BLUR_NONE && radius > 0;
+}
+
+/// Levels of the texture that is read.
+std::uint32_t all_mips(const GnPrefilterParams& params, std::uint32_t resolution) {
+    return params.mipmaps != 0 ? static_cast<std::uint32_t>(std::bit_width(resolution)) : 1;
+}
+
 }  // namespace
 
 TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views,
@@ -104,9 +113,9 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
     return map.samples > 1 ? add_resolve_samples(input, target, map) : target;
 }
 
-std::vector<float> blur_weights(BlurKernel kernel, int radius) {
+std::vector<float> blur_weights(int kernel, int radius) {
     std::vector<float> weights(static_cast<std::size_t>(radius) + 1, 1.0F);
-    if (kernel == BlurKernel::gaussian && radius > 0) {
+    if (kernel == GN_BLUR_GAUSSIAN && radius > 0) {
         const float sigma = 0.5F * static_cast<float>(radius);
         for (std::size_t i = 0; i < weights.size(); ++i) {
             const float x = static_cast<float>(i) / sigma;
@@ -123,9 +132,8 @@ std::vector<float> blur_weights(BlurKernel kernel, int radius) {
     return weights;
 }
 
-TextureHandle add_blur(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius,
-                       std::uint32_t mips) {
-    if (kernel == BlurKernel::none || radius == 0) {
+TextureHandle add_blur(const FrameInput& input, TextureHandle source, int kernel, int radius, std::uint32_t mips) {
+    if (!blurs(kernel, radius)) {
         return source;
     }
     const std::vector<float> weights = blur_weights(kernel, radius);
@@ -163,10 +171,6 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
     }
 }
 
-std::uint32_t full_chain(std::uint32_t resolution) {
-    return static_cast<std::uint32_t>(std::bit_width(resolution));
-}
-
 void add_mips(const FrameInput& input, TextureHandle texture) {
     const std::uint32_t mips = input.graph.desc(texture).mips;
     for (std::uint32_t mip = 1; mip < mips; ++mip) {
@@ -182,18 +186,25 @@ void add_mips(const FrameInput& input, TextureHandle texture) {
     }
 }
 
-ShadowMap filtered_map(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius, std::uint32_t mips,
-                       int anisotropy) {
+std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resolution) {
+    return blurs(params.blur, params.radius) ? 1 : all_mips(params, resolution);
+}
+
+ShadowMap filtered_map(const FrameInput& input, TextureHandle source, const GnPrefilterParams& params) {
     ShadowMap map;
-    map.texture = add_blur(input, source, kernel, radius, mips);
+    map.texture = add_blur(input, source, params.blur, params.radius, all_mips(params, input.graph.desc(source).width));
     add_mips(input, map.texture);
     map.sampler = trilinear();
-    map.sampler.anisotropy = static_cast<float>(anisotropy);
+    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
     return map;
 }
 
-Guard blur_guard(BlurKernel kernel, int radius) {
-    return {.texels = kernel == BlurKernel::none ? 0.0F : static_cast<float>(radius)};
+Guard blur_guard(const GnPrefilterParams& params) {
+    return {.texels = params.blur == GN_BLUR_NONE ? 0.0F : static_cast<float>(params.radius)};
+}
+
+std::vector<Feature> filtering_features(bool float32) {
+    return float32 ? std::vector<Feature>{Feature::float32_filter} : std::vector<Feature>{};
 }
 
 std::string refuse_samples(std::string_view parameter, int samples) {

@@ -3,11 +3,10 @@
 // step is a pass of the graph and keeps the map's layers.
 #pragma once
 
+#include "shadow/map/prefilter_params.h"
 #include "shadow/map/raster.h"
 
 namespace gn {
-
-enum class BlurKernel { none, box, gaussian };
 
 /// What rasterization makes of the casters: a colour array, one layer a view.
 struct MomentMap {
@@ -17,27 +16,34 @@ struct MomentMap {
     ClearValue clear;         ///< what a texel without caster stores
     CasterFragment fragment;  ///< writes `layout(location = 0) out vec4 out_moments` from `depth`
     std::function<void(Recorder&)> bind_values;
-    std::uint32_t mips = 1;  ///< of the returned texture; filled by add_mips
+    std::uint32_t mips = 1;  ///< of the returned texture; filled by add_mips; 1 while it has samples
 };
 TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views, const MomentMap& map);
 
-/// A separable blur of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
+/// A separable blur (GN_BLUR_BOX, GN_BLUR_GAUSSIAN) of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
 /// Gaussian of sigma = radius / 2 cut at radius. radius 0 or none returns the source. The result has `mips` levels.
-TextureHandle add_blur(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius,
-                       std::uint32_t mips = 1);
+TextureHandle add_blur(const FrameInput& input, TextureHandle source, int kernel, int radius, std::uint32_t mips = 1);
 
 /// Fills the mip chain of every layer by halving boxes.
 void add_mips(const FrameInput& input, TextureHandle texture);
-/// The end that blurred maps share: blur, mipmap, and read trilinearly with this anisotropy.
-ShadowMap filtered_map(const FrameInput& input, TextureHandle source, BlurKernel kernel, int radius, std::uint32_t mips,
-                       int anisotropy);
+
+/// Levels that a map is drawn with: those asked for, or one where a blur makes the copy that is read.
+std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resolution);
+/// The end that blurred maps share: blur, mipmap, and read trilinearly. `source` has drawn_mips levels.
+ShadowMap filtered_map(const FrameInput& input, TextureHandle source, const GnPrefilterParams& params);
 /// How far a blurred map's texels reach.
-Guard blur_guard(BlurKernel kernel, int radius);
+Guard blur_guard(const GnPrefilterParams& params);
 /// The sentence that refuses a count of samples that add_moments does not take, or "". `parameter`: "vsm.samples".
 std::string refuse_samples(std::string_view parameter, int samples);
+/// What linear filtering of a texture of 32-bit floats needs of a device; nothing for other textures.
+std::vector<Feature> filtering_features(bool float32);
 
-/// Levels of a full chain for this resolution.
-std::uint32_t full_chain(std::uint32_t resolution);
+/// The rows that several maps have. `offset` is that of the field, or of the member `prefilter`, in the map's own struct.
+std::vector<ParamRow> with_prefilter(std::vector<ParamRow> rows, std::size_t offset);
+ParamRow samples_row(std::size_t offset);
+ParamRow slope_moment_row(std::size_t offset);
+ParamRow min_deviation_row(std::size_t offset);
+ParamRow bleeding_row(std::size_t offset);
 
 /// One fragment pass a layer over a whole texture: `text` is GLSL with main(); `source` is bound as sampler2DArray
 /// "source" with the layer in push constant int `push_layer`, after your own declarations.
@@ -51,6 +57,6 @@ struct LayerPass {
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass);
 
 /// The normalized weights of a blur, index 0 the centre: weights[0] + 2 sum(weights[1..radius]) = 1.
-std::vector<float> blur_weights(BlurKernel kernel, int radius);
+std::vector<float> blur_weights(int kernel, int radius);
 
 }  // namespace gn

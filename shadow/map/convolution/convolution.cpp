@@ -11,13 +11,12 @@ namespace gn {
 namespace {
 
 /// Evaluates the basis functions of every texel of the depth map.
-TextureHandle add_basis(const FrameInput& input, TextureHandle depth, const GnConvolutionParams& params,
-                        std::uint32_t mips) {
+TextureHandle add_basis(const FrameInput& input, TextureHandle depth, const GnConvolutionParams& params) {
     TextureDesc desc = input.graph.desc(depth);
     desc.name = "map";
     desc.format = VK_FORMAT_R8G8B8A8_UNORM;
     desc.layers *= static_cast<std::uint32_t>(glsl::gn_convolution_groups(params.terms));
-    desc.mips = mips;
+    desc.mips = drawn_mips(params.prefilter, desc.width);
     desc.usage = 0;
     const TextureHandle basis = input.graph.create(desc);
     add_layer_passes(input, depth, basis,
@@ -38,7 +37,6 @@ void main() {
 
 ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnConvolutionParams>("convolution");
-    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
 
     // Rasterize depth and expand it.
     const TextureHandle depth = input.graph.create({.name = "map depth",
@@ -47,36 +45,31 @@ ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const L
                                                     .height = views.resolution,
                                                     .layers = views.layers});
     add_caster_passes(input, recipe, views, {.depth = depth});
-    const TextureHandle basis = add_basis(input, depth, params, mips);
+    const TextureHandle basis = add_basis(input, depth, params);
 
     // Blur and mipmap.
-    return filtered_map(input, basis, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
+    return filtered_map(input, basis, params.prefilter);
 }
 
 Guard guard(const Recipe& recipe) {
-    const auto params = recipe.of<GnConvolutionParams>("convolution");
-    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
+    return blur_guard(recipe.of<GnConvolutionParams>("convolution").prefilter);
 }
 
 ParamTable rows() {
-    return param_table<GnConvolutionParams>({
-        GN_PARAM(GnConvolutionParams, terms, integer, 1, 16, "",
-                 "Terms of the series: steeper steps and less bleeding, two bytes a texel each."),
-        GN_PARAM(GnConvolutionParams, attenuation, real, 0, 8, "",
-                 "Damps the high terms: less ringing, flatter steps."),
-        GN_PARAM(GnConvolutionParams, offset, real, 0, 2, "",
-                 "Moves the step into the shadow, in half widths of it: less acne, more light at contacts."),
-        GN_PARAM(GnConvolutionParams, scale, real, 1, 8, "",
-                 "Stretches the step about its middle and clamps it: less acne and bleeding, harder penumbrae."),
-        GN_PARAM(GnConvolutionParams, span, real, 0.1, 1, "",
-                 "Share of the half period that depth takes: finer steps, but at 1 the far end wraps into light."),
-        GN_CHOICE(GnConvolutionParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
-        GN_PARAM(GnConvolutionParams, radius, integer, 0, 64, "texels",
-                 "Reach of the blur: softer edges, cost grows in proportion."),
-        GN_PARAM(GnConvolutionParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
-        GN_PARAM(GnConvolutionParams, anisotropy, integer, 1, 16, "",
-                 "Fetches along stretched footprints: sharper at grazing views, slow in software."),
-    });
+    return param_table<GnConvolutionParams>(with_prefilter(
+        {
+            GN_PARAM(GnConvolutionParams, terms, integer, 1, 16, "",
+                     "Terms of the series: steeper steps and less bleeding, two bytes a texel each."),
+            GN_PARAM(GnConvolutionParams, attenuation, real, 0, 8, "",
+                     "Damps the high terms: less ringing, flatter steps."),
+            GN_PARAM(GnConvolutionParams, offset, real, 0, 2, "",
+                     "Moves the step into the shadow, in half widths of it: less acne, more light at contacts."),
+            GN_PARAM(GnConvolutionParams, scale, real, 1, 8, "",
+                     "Stretches the step about its middle and clamps it: less acne and bleeding, harder penumbrae."),
+            GN_PARAM(GnConvolutionParams, span, real, 0.1, 1, "",
+                     "Share of the half period that depth takes: finer steps, but at 1 the far end wraps into light."),
+        },
+        offsetof(GnConvolutionParams, prefilter)));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_MAP_CONVOLUTION_H
 #define GN_SHADOW_MAP_CONVOLUTION_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 struct GnConvolutionParams {
     int terms GN_DEFAULT(16);
@@ -11,10 +11,7 @@ struct GnConvolutionParams {
     float offset GN_DEFAULT(0.8f);
     float scale GN_DEFAULT(1.1f);
     float span GN_DEFAULT(0.9f);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
 };
 
 #endif

@@ -11,14 +11,13 @@ namespace {
 
 ShadowMap add_esm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnEsmParams>("esm");
-    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
 
     // Rasterize exponentials; a texel without caster stores that of the far plane.
     MomentMap moments;
     moments.format = VK_FORMAT_R32_SFLOAT;
     moments.samples = params.samples;
     moments.clear = {.color = vec4(glsl::gn_esm_encode(1, params.exponent), 0, 0, 0)};
-    moments.mips = mips;
+    moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/esm/esm.glsl"
 layout(binding = 3, scalar) uniform MapParams { GnEsmParams map_params; };
@@ -29,15 +28,13 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap; the fallback reads what was drawn.
-    ShadowMap map =
-        filtered_map(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
+    ShadowMap map = filtered_map(input, raw, params.prefilter);
     map.extra = params.fallback != 0 && map.texture != raw ? raw : TextureHandle{};
     return map;
 }
 
 Guard guard(const Recipe& recipe) {
-    const auto params = recipe.of<GnEsmParams>("esm");
-    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
+    return blur_guard(recipe.of<GnEsmParams>("esm").prefilter);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
@@ -56,22 +53,18 @@ const Part& map_esm() {
         p.title = "Exponential shadow maps";
         p.citation = "AMS+08";
         p.gives = "filterable";
-        p.params = param_table<GnEsmParams>({
-            GN_PARAM(GnEsmParams, exponent, real, 1, 85, "",
-                     "Steepness of exp(c z), z in [0,1]: less light just behind casters, more failing receivers."),
-            GN_PARAM(GnEsmParams, fallback, boolean, 0, 1, "",
-                     "Compares texel by texel where the exponential fails: right there, and slow there."),
-            GN_PARAM(GnEsmParams, epsilon, real, 0, 1, "",
-                     "How far the filtered value may exceed one before the fallback is taken: faster, less exact."),
-            GN_PARAM(GnEsmParams, samples, integer, 1, 4, "",
-                     "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
-            GN_CHOICE(GnEsmParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
-            GN_PARAM(GnEsmParams, radius, integer, 0, 64, "texels",
-                     "Reach of the blur: softer edges, more receivers for the fallback."),
-            GN_PARAM(GnEsmParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
-            GN_PARAM(GnEsmParams, anisotropy, integer, 1, 16, "",
-                     "Fetches along stretched footprints: sharper at grazing views, slow in software."),
-        });
+        p.features = {Feature::float32_filter};
+        p.params = param_table<GnEsmParams>(with_prefilter(
+            {
+                GN_PARAM(GnEsmParams, exponent, real, 1, 85, "",
+                         "Steepness of exp(c z), z in [0,1]: less light just behind casters, more failing receivers."),
+                GN_PARAM(GnEsmParams, fallback, boolean, 0, 1, "",
+                         "Compares texel by texel where the exponential fails: right there, and slow there."),
+                GN_PARAM(GnEsmParams, epsilon, real, 0, 1, "",
+                         "How far the filtered value may exceed one before the fallback is taken: faster, less exact."),
+                samples_row(offsetof(GnEsmParams, samples)),
+            },
+            offsetof(GnEsmParams, prefilter)));
         p.params_type = "GnEsmParams";
         p.glsl = "shadow/map/esm/esm.glsl";
         p.add_map = add_esm;

@@ -36,7 +36,7 @@ float gn_esm_pcf(sampler2DArray raw, GnProjected projected, vec2 footprint_ts, G
     GnBias plane;
     plane.receiver_plane = 1;
     vec2 t = projected.uv_ts / projected.texel_ts;
-    float blur = params.blur == 0 ? 1.0 : 2.0 * float(params.radius) + 1.0;
+    float blur = params.prefilter.blur == GN_BLUR_NONE ? 1.0 : 2.0 * float(params.prefilter.radius) + 1.0;
     vec2 size = max(vec2(blur), footprint_ts / projected.texel_ts);
     vec2 step = max(vec2(1.0), ceil(size / 16.0));
     vec2 start = t - 0.5 * size;

@@ -3,17 +3,14 @@
 #ifndef GN_SHADOW_MAP_ESM_H
 #define GN_SHADOW_MAP_ESM_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 struct GnEsmParams {
     float exponent GN_DEFAULT(80.0f);
     int fallback GN_DEFAULT(1);
     float epsilon GN_DEFAULT(0.02f);
     int samples GN_DEFAULT(1);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
 };
 
 #endif

@@ -21,14 +21,13 @@ VkFormat format_of(const GnEvsmParams& params) {
 
 ShadowMap add_evsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnEvsmParams>("evsm");
-    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
 
     // Rasterize warped moments; a texel without caster stores those of the far plane.
     MomentMap moments;
     moments.format = format_of(params);
     moments.samples = params.samples;
     moments.clear = {.color = glsl::gn_evsm_encode(1, vec2(0), params)};
-    moments.mips = mips;
+    moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/evsm/evsm.glsl"
 layout(binding = 3, scalar) uniform MapParams { GnEvsmParams map_params; };
@@ -42,12 +41,15 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
+    return filtered_map(input, raw, params.prefilter);
+}
+
+std::vector<Feature> features_for(const Recipe& recipe) {
+    return filtering_features(recipe.of<GnEvsmParams>("evsm").format == GN_EVSM_FLOAT32);
 }
 
 Guard guard(const Recipe& recipe) {
-    const auto params = recipe.of<GnEvsmParams>("evsm");
-    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
+    return blur_guard(recipe.of<GnEvsmParams>("evsm").prefilter);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
@@ -55,31 +57,24 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 ParamTable rows() {
-    return param_table<GnEvsmParams>({
-        GN_CHOICE(GnEvsmParams, components,
-                  "2 keeps the moments of exp(c z) only, 4 also those of -exp(-c z): less bleeding, twice the memory.",
-                  "2", "4"),
-        GN_CHOICE(GnEvsmParams, format, "Floats of 16 bits limit both exponents to 5, those of 32 bits to 42.",
-                  "float16", "float32"),
-        GN_PARAM(GnEvsmParams, exponent, real, 1, 42, "",
-                 "Steepness of exp(c z), z in [-1,1]: less bleeding, harder rims where receivers are uneven."),
-        GN_PARAM(GnEvsmParams, exponent_negative, real, 1, 42, "",
-                 "Steepness of -exp(-c z): fewer of those hard rims, more bleeding behind the first caster."),
-        GN_PARAM(GnEvsmParams, samples, integer, 1, 4, "",
-                 "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
-        GN_CHOICE(GnEvsmParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
-        GN_PARAM(GnEvsmParams, radius, integer, 0, 64, "texels",
-                 "Reach of the blur: softer edges, cost grows in proportion."),
-        GN_PARAM(GnEvsmParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
-        GN_PARAM(GnEvsmParams, anisotropy, integer, 1, 16, "",
-                 "Fetches along stretched footprints: sharper at grazing views, slow in software."),
-        GN_PARAM(GnEvsmParams, slope_moment, boolean, 0, 1, "",
-                 "Adds the slope of the surface to the second moments: no acne on slanted surfaces."),
-        GN_PARAM(GnEvsmParams, min_deviation, real, 0, 1, "m",
-                 "Least standard deviation of depth assumed: less acne, softer contacts."),
-        GN_PARAM(GnEvsmParams, bleeding, real, 0, 0.99, "",
-                 "Share of the bound cut off: less bleeding, darker and harder penumbrae."),
-    });
+    return param_table<GnEvsmParams>(with_prefilter(
+        {
+            GN_CHOICE(
+                GnEvsmParams, components,
+                "2 keeps the moments of exp(c z) only, 4 also those of -exp(-c z): less bleeding, twice the memory.",
+                "2", "4"),
+            GN_CHOICE(GnEvsmParams, format, "Floats of 16 bits limit both exponents to 5, those of 32 bits to 42.",
+                      "float16", "float32"),
+            GN_PARAM(GnEvsmParams, exponent, real, 1, 42, "",
+                     "Steepness of exp(c z), z in [-1,1]: less bleeding, harder rims where receivers are uneven."),
+            GN_PARAM(GnEvsmParams, exponent_negative, real, 1, 42, "",
+                     "Steepness of -exp(-c z): fewer of those hard rims, more bleeding behind the first caster."),
+            samples_row(offsetof(GnEvsmParams, samples)),
+            slope_moment_row(offsetof(GnEvsmParams, slope_moment)),
+            min_deviation_row(offsetof(GnEvsmParams, min_deviation)),
+            bleeding_row(offsetof(GnEvsmParams, bleeding)),
+        },
+        offsetof(GnEvsmParams, prefilter)));
 }
 
 }  // namespace
@@ -94,6 +89,7 @@ const Part& map_evsm() {
         p.title = "Exponential variance shadow maps";
         p.citation = "Lau08";
         p.gives = "filterable";
+        p.features_for = features_for;
         p.params = rows();
         p.params_type = "GnEvsmParams";
         p.glsl = "shadow/map/evsm/evsm.glsl";

@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_MAP_EVSM_H
 #define GN_SHADOW_MAP_EVSM_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 #define GN_EVSM_TWO 0
 #define GN_EVSM_FOUR 1
@@ -16,10 +16,7 @@ struct GnEvsmParams {
     float exponent GN_DEFAULT(20.0f);
     float exponent_negative GN_DEFAULT(10.0f);
     int samples GN_DEFAULT(1);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
     int slope_moment GN_DEFAULT(1);
     float min_deviation GN_DEFAULT(0.01f);
     float bleeding GN_DEFAULT(0.1f);

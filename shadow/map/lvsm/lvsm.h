@@ -3,9 +3,10 @@
 #ifndef GN_SHADOW_MAP_LVSM_H
 #define GN_SHADOW_MAP_LVSM_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 #define GN_LVSM_MAX_LAYERS 16
+#define GN_LVSM_BINS 1024  // of the histogram that places relaxed splits
 
 #define GN_LVSM_UNIFORM 0
 #define GN_LVSM_LLOYD 1
@@ -21,10 +22,7 @@ struct GnLvsmParams {
     float transition GN_DEFAULT(1.0f);
     int format GN_DEFAULT(GN_LVSM_UNORM16);
     int samples GN_DEFAULT(1);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
     int slope_moment GN_DEFAULT(1);
     float min_deviation GN_DEFAULT(0.01f);
     float bleeding GN_DEFAULT(0.2f);

@@ -16,7 +16,6 @@ TextureHandle add_depths(const FrameInput& input, const Recipe& recipe, const Li
 TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnLvsmParams& params);
 
 /// The warped moments, two layers a texture, the layers of one map behind each other. `splits` may be invalid: uniform.
-TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHandle splits, const GnLvsmParams& params,
-                       std::uint32_t mips);
+TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHandle splits, const GnLvsmParams& params);
 
 }  // namespace gn

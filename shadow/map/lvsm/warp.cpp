@@ -4,7 +4,7 @@
 //
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 #include "shadow/map/lvsm/lvsm_passes.h"
-#include "shadow/map/raster.h"
+#include "shadow/map/prefilter.h"
 
 namespace gn {
 namespace {
@@ -74,8 +74,8 @@ TextureHandle add_depths(const FrameInput& input, const Recipe& recipe, const Li
     return target;
 }
 
-TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHandle splits, const GnLvsmParams& params,
-                       std::uint32_t mips) {
+TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHandle splits,
+                       const GnLvsmParams& params) {
     const TextureDesc source = input.graph.desc(depths);
     const auto textures = static_cast<std::uint32_t>((params.layers + 1) / 2);
     TextureDesc desc{.name = "map",
@@ -83,7 +83,7 @@ TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHan
                      .width = source.width,
                      .height = source.height,
                      .layers = source.layers * textures,
-                     .mips = mips};
+                     .mips = drawn_mips(params.prefilter, source.width)};
     const TextureHandle target = input.graph.create(desc);
     const std::string text =
         fmt::format("#define GN_DEPTHS {}\n#define GN_SAMPLES {}\n{}",

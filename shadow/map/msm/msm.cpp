@@ -11,14 +11,13 @@ namespace {
 
 ShadowMap add_msm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnMsmParams>("msm");
-    const std::uint32_t mips = params.mipmaps != 0 ? full_chain(views.resolution) : 1;
 
     // Rasterize moments; a texel without caster stores those of the far plane.
     MomentMap moments;
     moments.format = params.format == GN_MSM_UNORM16 ? VK_FORMAT_R16G16B16A16_UNORM : VK_FORMAT_R32G32B32A32_SFLOAT;
     moments.samples = params.samples;
     moments.clear = {.color = glsl::gn_msm_encode(1, params.format)};
-    moments.mips = mips;
+    moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/msm/msm.glsl"
 layout(binding = 3, scalar) uniform MapParams { GnMsmParams map_params; };
@@ -29,12 +28,15 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, raw, static_cast<BlurKernel>(params.blur), params.radius, mips, params.anisotropy);
+    return filtered_map(input, raw, params.prefilter);
+}
+
+std::vector<Feature> features_for(const Recipe& recipe) {
+    return filtering_features(recipe.of<GnMsmParams>("msm").format == GN_MSM_FLOAT32);
 }
 
 Guard guard(const Recipe& recipe) {
-    const auto params = recipe.of<GnMsmParams>("msm");
-    return blur_guard(static_cast<BlurKernel>(params.blur), params.radius);
+    return blur_guard(recipe.of<GnMsmParams>("msm").prefilter);
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
@@ -42,27 +44,22 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 ParamTable rows() {
-    return param_table<GnMsmParams>({
-        GN_CHOICE(GnMsmParams, problem,
-                  "Which distributions are thought of: on the whole line, or in [0,1] only (a little darker, slower).",
-                  "hamburger", "hausdorff"),
-        GN_CHOICE(GnMsmParams, format, "8 bytes a texel, rotated to make the most of 16 bits, or 16 bytes.", "unorm16",
-                  "float32"),
-        GN_PARAM(GnMsmParams, moment_bias, real, 0, 0.1, "",
-                 "Share of a broad distribution mixed in against rounding: less noise, more bleeding."),
-        GN_PARAM(GnMsmParams, samples, integer, 1, 4, "",
-                 "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
-        GN_CHOICE(GnMsmParams, blur, "The kernel that the map is blurred with.", "none", "box", "gaussian"),
-        GN_PARAM(GnMsmParams, radius, integer, 0, 64, "texels",
-                 "Reach of the blur: softer edges and more bleeding, cost grows in proportion."),
-        GN_PARAM(GnMsmParams, mipmaps, boolean, 0, 1, "", "Smooths distant shadows; a third more memory."),
-        GN_PARAM(GnMsmParams, anisotropy, integer, 1, 16, "",
-                 "Fetches along stretched footprints: sharper at grazing views, slow in software."),
-        GN_PARAM(GnMsmParams, depth_bias, real, 0, 10, "m",
-                 "Moves receivers towards the light: less acne, which rounding causes, and softer contacts."),
-        GN_PARAM(GnMsmParams, bleeding, real, 0, 0.99, "",
-                 "Share of the bound cut off: less bleeding, darker and harder penumbrae."),
-    });
+    return param_table<GnMsmParams>(with_prefilter(
+        {
+            GN_CHOICE(
+                GnMsmParams, problem,
+                "Which distributions are thought of: on the whole line, or in [0,1] only (a little darker, slower).",
+                "hamburger", "hausdorff"),
+            GN_CHOICE(GnMsmParams, format, "8 bytes a texel, rotated to make the most of 16 bits, or 16 bytes.",
+                      "unorm16", "float32"),
+            GN_PARAM(GnMsmParams, moment_bias, real, 0, 0.1, "",
+                     "Share of a broad distribution mixed in against rounding: less noise, more bleeding."),
+            samples_row(offsetof(GnMsmParams, samples)),
+            GN_PARAM(GnMsmParams, depth_bias, real, 0, 10, "m",
+                     "Moves receivers towards the light: less acne, which rounding causes, and softer contacts."),
+            bleeding_row(offsetof(GnMsmParams, bleeding)),
+        },
+        offsetof(GnMsmParams, prefilter)));
 }
 
 }  // namespace
@@ -77,6 +74,7 @@ const Part& map_msm() {
         p.title = "Moment shadow maps";
         p.citation = "PK15";
         p.gives = "filterable";
+        p.features_for = features_for;
         p.params = rows();
         p.params_type = "GnMsmParams";
         p.glsl = "shadow/map/msm/msm.glsl";

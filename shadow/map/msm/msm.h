@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_MAP_MSM_H
 #define GN_SHADOW_MAP_MSM_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 #define GN_MSM_UNORM16 0
 #define GN_MSM_FLOAT32 1
@@ -15,10 +15,7 @@ struct GnMsmParams {
     int format GN_DEFAULT(GN_MSM_UNORM16);
     float moment_bias GN_DEFAULT(6.0e-5f);
     int samples GN_DEFAULT(1);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
     float depth_bias GN_DEFAULT(0.02f);
     float bleeding GN_DEFAULT(0.05f);
 };

@@ -53,14 +53,10 @@ ParamTable rows() {
                  "Side of the largest box: steadier far shadows, but integers are left with coarser moments."),
         GN_PARAM(GnSatVsmParams, radius, real, 0, 128, "texels",
                  "Half the least box beyond the receiver's texel: softer edges and more bleeding at no cost."),
-        GN_PARAM(GnSatVsmParams, samples, integer, 1, 4, "",
-                 "Samples a texel, 1 or 4: smoother edges, four times the memory while drawing."),
-        GN_PARAM(GnSatVsmParams, slope_moment, boolean, 0, 1, "",
-                 "Adds the slope of the surface to the second moment: no acne on slanted surfaces."),
-        GN_PARAM(GnSatVsmParams, min_deviation, real, 0, 1, "m",
-                 "Least standard deviation assumed: less acne, softer contacts."),
-        GN_PARAM(GnSatVsmParams, bleeding, real, 0, 0.99, "",
-                 "Share of the bound cut off: less bleeding, darker and harder penumbrae."),
+        samples_row(offsetof(GnSatVsmParams, samples)),
+        slope_moment_row(offsetof(GnSatVsmParams, slope_moment)),
+        min_deviation_row(offsetof(GnSatVsmParams, min_deviation)),
+        bleeding_row(offsetof(GnSatVsmParams, bleeding)),
     });
 }
 

@@ -3,14 +3,11 @@
 #ifndef GN_SHADOW_MAP_VSM_H
 #define GN_SHADOW_MAP_VSM_H
 
-#include "base/shared.h"
+#include "shadow/map/prefilter_params.h"
 
 struct GnVsmParams {
     int samples GN_DEFAULT(1);
-    int blur GN_DEFAULT(1);
-    int radius GN_DEFAULT(2);
-    int mipmaps GN_DEFAULT(1);
-    int anisotropy GN_DEFAULT(1);
+    GnPrefilterParams prefilter;
     int slope_moment GN_DEFAULT(1);
     float min_deviation GN_DEFAULT(0.01f);
     float bleeding GN_DEFAULT(0.2f);
