@@ -38,6 +38,7 @@ constexpr const char* compare_examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
   gnomon compare fence corridor -r hard -r hard,resolution=4096 --json figures.json
   gnomon compare car.glb -r pcf --light sun --samples 1024 --size 1280x720 -o report
+  gnomon compare courtyard -r vsm -r msm --against pcf,pcf.kernel=9 -o report
   gnomon compare corridor -r pcf,placement=cascades -r pcf,placement=fit --path walk -o report
 
 Results are kept in DIR/results as soon as they are measured: the same command again only measures what is missing.
@@ -136,6 +137,8 @@ struct Parser {
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
+        command->add_option("--against", compare.against,
+                            "Also hold every run against this recipe's visibility: the figures 'against'");
         path =
             command
                 ->add_option("--path", compare.path,

@@ -54,6 +54,7 @@ struct RenderOptions {
 struct CompareOptions {
     std::vector<std::string> scenes, recipes;
     std::string folder, json, view, light;  ///< "" where not asked for
+    std::string against;                    ///< the recipe that all others are held against besides, or ""
     bool follow_path = false;
     std::string path;  ///< name of the camera path to follow; "" is the scene's first
     Size size;

@@ -73,6 +73,17 @@ void add_camera(Hasher& hasher, const Camera& camera) {
     hasher.value(camera.yfov).value(camera.near).value(camera.far);
 }
 
+void add_recipe(Hasher& hasher, const Recipe& recipe) {
+    hasher.text(recipe.name).text(recipe.overrides).text(recipe.casters).value(recipe.resolution);
+    hasher.bytes(&recipe.bias, sizeof recipe.bias).text(recipe.title).text(recipe.paragraph);
+    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        hasher.text(part != nullptr ? part->id : "");
+    }
+    for (const auto& [id, block] : recipe.params) {
+        hasher.text(id).bytes(block.bytes().data(), block.bytes().size());
+    }
+}
+
 std::size_t pixels(int width, int height) {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
@@ -108,15 +119,13 @@ std::string ResultCache::view_key(const Scene& scene, const std::string& asked, 
     return hasher.finish().hex();
 }
 
-std::string ResultCache::run_key(const std::string& view_key, const Recipe& recipe) const {
+std::string ResultCache::run_key(const std::string& view_key, const Recipe& recipe, const Recipe* against) const {
     Hasher hasher;
-    hasher.text(view_key).text(recipe.name).text(recipe.overrides).text(recipe.casters).value(recipe.resolution);
-    hasher.bytes(&recipe.bias, sizeof recipe.bias).text(recipe.title).text(recipe.paragraph);
-    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        hasher.text(part != nullptr ? part->id : "");
-    }
-    for (const auto& [id, block] : recipe.params) {
-        hasher.text(id).bytes(block.bytes().data(), block.bytes().size());
+    hasher.text(view_key);
+    add_recipe(hasher, recipe);
+    hasher.value(against != nullptr);
+    if (against != nullptr) {
+        add_recipe(hasher, *against);
     }
     return hasher.finish().hex();
 }

@@ -22,7 +22,7 @@ class ResultCache {
 
     [[nodiscard]] std::string view_key(const Scene& scene, const std::string& asked, const Camera& camera,
                                        const CameraPath* path) const;
-    [[nodiscard]] std::string run_key(const std::string& view_key, const Recipe& recipe) const;
+    [[nodiscard]] std::string run_key(const std::string& view_key, const Recipe& recipe, const Recipe* against) const;
     /// The truth depends on the very samples that were rendered.
     [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples,
                                         std::size_t light) const;

@@ -37,28 +37,34 @@ void check_scene_exists(const std::string& asked) {
     }
 }
 
-AskedRecipe read_recipe(const std::string& text) {
+/// The recipe of an option -r or --against.
+AskedRecipe read_recipe(const std::string& option, const std::string& text) {
     try {
         return {text, load_recipe(text)};
     } catch (const Error& error) {
         // Everything between -r and the next option is a recipe: say so to whom wrote a scene there.
         const auto& known = builtin_scenes();
-        const bool scene =
-            std::any_of(known.begin(), known.end(), [&](const BuiltinScene& s) { return s.name == text; });
-        throw InputError(scene
-                             ? fmt::format("-r: '{}' is a scene, not a recipe; scenes stand before the first -r", text)
-                             : error.what());
+        if (std::any_of(known.begin(), known.end(), [&](const BuiltinScene& s) { return s.name == text; })) {
+            throw InputError(
+                fmt::format("{}: '{}' is a scene, not a recipe; scenes stand before the first -r", option, text));
+        }
+        const std::string sentence = error.what();
+        const bool named = sentence.starts_with("-r ");
+        throw InputError(named ? option + sentence.substr(2) : fmt::format("{}: {}", option, sentence));
     }
 }
 
 class Comparer {
   public:
-    explicit Comparer(const CompareOptions& options)
+    /// `against` may be null.
+    Comparer(const CompareOptions& options, const Recipe* against)
         : options_(options),
+          against_(against),
           bench_(options.validate),
           cache_(options.folder, options.fresh, options, bench_.device().info()) {
         comparison_.device = bench_.device().info();
         comparison_.command = options.command;
+        comparison_.against = options.against;
         comparison_.samples = options.samples;
         comparison_.repeat = options.repeat;
     }
@@ -99,7 +105,7 @@ class Comparer {
     }
 
     void open(std::optional<ViewSession>& view, const std::string& asked) {
-        view.emplace(asked, options_);
+        view.emplace(asked, options_, against_);
         view->name_in(cache_);
         for (const std::string& note : view->scene().notes) {
             spdlog::info("{}: {}", asked, note);
@@ -108,7 +114,7 @@ class Comparer {
 
     /// Adds the run, from the cache or measured; false when the user asked to stop before it was complete.
     bool add_run(ViewSession& view, const AskedRecipe& asked, int step, int steps) {
-        const std::string key = cache_.run_key(view.key(), asked.recipe);
+        const std::string key = cache_.run_key(view.key(), asked.recipe, against_);
         if (auto known = cache_.find_run(key); known && view.result.reference.samples > 0) {
             spdlog::info("{} with {}: taken from an earlier run", view.result.scene, asked.text);
             take(std::move(*known));
@@ -247,6 +253,7 @@ class Comparer {
     }
 
     CompareOptions options_;
+    const Recipe* against_;
     Bench bench_;
     ResultCache cache_;
     Progress progress_;
@@ -264,7 +271,11 @@ int run(const CompareOptions& asked) {
     options.recipes = without_repeats(options.recipes);
     std::vector<AskedRecipe> recipes;
     for (const std::string& text : options.recipes) {
-        recipes.push_back(read_recipe(text));
+        recipes.push_back(read_recipe("-r", text));
+    }
+    std::optional<Recipe> against;
+    if (!options.against.empty()) {
+        against = read_recipe("--against", options.against).recipe;
     }
     for (const std::string& scene : options.scenes) {
         reading([&] { check_scene_exists(scene); });
@@ -280,7 +291,7 @@ int run(const CompareOptions& asked) {
         setenv("LP_NUM_THREADS", fmt::format("{}", options.threads).c_str(), 0);
     }
     watch_signals();
-    return Comparer(options).run(recipes);
+    return Comparer(options, against ? &*against : nullptr).run(recipes);
 }
 
 }  // namespace gn

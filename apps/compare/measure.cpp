@@ -40,6 +40,7 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
                     shell_word(recipe), options.size.width, options.size.height, options.samples, options.repeat);
     command += options.view.empty() ? "" : " --view " + shell_word(options.view);
     command += options.light.empty() ? "" : " --light " + shell_word(options.light);
+    command += options.against.empty() ? "" : " --against " + shell_word(options.against);
     command += !options.follow_path ? "" : options.path.empty() ? " --path" : " --path " + shell_word(options.path);
     return command + (options.validate ? " --validate" : "") + " -o report";
 }
@@ -81,7 +82,7 @@ struct PictureNames {
 
 /// Errors and error map of every light that is asked for; returns which of the scene's lights were served.
 std::vector<bool> measure_lights(RunResult& run, const ViewSession& view, const FrameResult& frame,
-                                 const PictureNames& names) {
+                                 const FrameResult* against, const PictureNames& names) {
     SignedErrors combined;
     std::vector<Errors> errors;
     std::vector<bool> served(view.scene().lights.size(), false);
@@ -97,6 +98,12 @@ std::vector<bool> measure_lights(RunResult& run, const ViewSession& view, const 
             const TruthResult& truth = view.truth(l);
             light.errors =
                 visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
+            if (against != nullptr && against->refused[l].empty()) {
+                hold_against(light.errors, frame.visibility[l].values, against->visibility[l].values, truth.counted);
+            } else if (against != nullptr) {
+                run.remarks.push_back(fmt::format("'against' leaves light '{}' out, which the other recipe refused: {}",
+                                                  light.name, against->refused[l]));
+            }
             errors.push_back(light.errors);
             served[l] = true;
             const std::vector<float> map = combined.add(frame.visibility[l], truth);
@@ -214,7 +221,7 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     // Hold every light against the truth, then the pictures.
     const PictureNames names{options.folder, fmt::format("pictures/{}-{}-{}", slug(view.result.name),
                                                          slug(asked.recipe.name), run_key.substr(0, 8))};
-    const std::vector<bool> served = measure_lights(run, view, frame, names);
+    const std::vector<bool> served = measure_lights(run, view, frame, view.against(bench), names);
     if (std::find(served.begin(), served.end(), true) == served.end()) {
         run.status = "refused";
         run.reason = joined_reasons(run);

@@ -78,6 +78,11 @@ std::string summary_table(const Comparison& comparison) {
     if (path) {
         header.insert(header.begin() + 9, "flicker");
     }
+    // Likewise for what another recipe was held against.
+    const std::ptrdiff_t against = !comparison.against.empty() ? (path ? 10 : 9) : 0;
+    if (against > 0) {
+        header.insert(header.begin() + against, "against");
+    }
     std::vector<std::vector<std::string>> rows;
     for (const RunResult& run : comparison.runs) {
         const Errors& e = run.errors;
@@ -87,6 +92,9 @@ std::string summary_table(const Comparison& comparison) {
                         milliseconds(run.frame.median), run.status == "ok" ? human_bytes(run.bytes) : "-"});
         if (path) {
             rows.back().insert(rows.back().begin() + 9, figure(e.flicker));
+        }
+        if (against > 0) {
+            rows.back().insert(rows.back().begin() + against, figure(e.against));
         }
     }
     return text_table(header, rows, 3);

@@ -91,6 +91,7 @@ struct SceneResult {
 struct Comparison {
     DeviceInfo device;
     std::string command;
+    std::string against;  ///< the recipe that all runs are held against besides the truth, or ""
     int samples = 0, repeat = 0;
     std::vector<SceneResult> scenes;
     std::vector<RunResult> runs;

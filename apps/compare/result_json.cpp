@@ -240,6 +240,7 @@ ordered_json contract_json(const Comparison& comparison) {
 ordered_json report_json(const Comparison& comparison) {
     ordered_json json = document(comparison, true);
     json["command"] = comparison.command;
+    json["against"] = comparison.against;
     json["repeat"] = comparison.repeat;
     json["scenes"] = ordered_json::array();
     for (const SceneResult& scene : comparison.scenes) {

@@ -49,7 +49,8 @@ void Bench::replace() {
     device_ = Device::create({.validation = validate_});
 }
 
-ViewSession::ViewSession(const std::string& asked, const CompareOptions& options) : options_(options) {
+ViewSession::ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against)
+    : options_(options), against_(against) {
     reading([&] {
         scene_ = std::make_unique<Scene>(load_scene(asked));
         camera_ = scene_->camera(options.view);
@@ -190,6 +191,23 @@ std::vector<Image> ViewSession::reference_visibility(const std::vector<bool>& se
         images.push_back(served[l] && truth_[l] ? as_image(truth_[l]->visibility, options_.size) : Image{});
     }
     return images;
+}
+
+const FrameResult* ViewSession::against(Bench& bench) {
+    if (against_ != nullptr && !against_frame_) {
+        FrameOptions options;
+        options.width = static_cast<uint>(options_.size.width);
+        options.height = static_cast<uint>(options_.size.height);
+        options.repeat = 0;
+        options.only_light = only_light_;
+        options.picture = false;
+        try {
+            against_frame_ = render_frame(bench.device(), gpu(bench), camera_, *against_, options);
+        } catch (const Error& error) {
+            throw Error(fmt::format("--against: {}", error.what()));
+        }
+    }
+    return against_frame_ ? &*against_frame_ : nullptr;
 }
 
 Image ViewSession::picture_of(Bench& bench, std::span<const Image> visibility) {

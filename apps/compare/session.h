@@ -37,7 +37,8 @@ struct PathTruth {
 class ViewSession {
   public:
     /// Loads the scene and finds the view and the light that are asked for. Throws InputError.
-    ViewSession(const std::string& asked, const CompareOptions& options);
+    /// `against`: what all recipes are held against besides the truth, or null.
+    ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against);
 
     /// Traces (or finds in the cache) what is missing of the truth. May be called again. Throws Error;
     /// returns false when the user asked to stop.
@@ -50,6 +51,10 @@ class ViewSession {
     Image picture_of(Bench& bench, std::span<const Image> visibility);
     /// The traced visibilities; lights that are left out of `served` are empty.
     [[nodiscard]] std::vector<Image> reference_visibility(const std::vector<bool>& served) const;
+
+    /// The frame of the recipe that others are held against, or null when there is none. Drawn when first asked for.
+    /// Throws Error.
+    const FrameResult* against(Bench& bench);
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
@@ -76,6 +81,8 @@ class ViewSession {
                          const std::function<void(double)>& progress);
     void account(const ResultCache& cache, Bench& bench);
     const CompareOptions& options_;
+    const Recipe* against_;
+    std::optional<FrameResult> against_frame_;
     std::unique_ptr<Scene> scene_;
     Camera camera_;
     int only_light_ = -1;

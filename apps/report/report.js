@@ -89,10 +89,11 @@ function sortableTable(caption, columns, rows, groupOf = () => '') {
     el('table', {'aria-label': caption}, el('thead', {}, el('tr', {}, heads)), body));
 }
 
-// Flicker needs a camera path; without one it has no column.
-const metrics = data.metrics.filter(metric => metric.name !== 'flicker' || data.runs.some(run => run.path));
+// Flicker needs a camera path, and 'against' a recipe to be held against; without them they have no column.
+const asked = {flicker: data.runs.some(run => run.path), against: data.against, against_mean: data.against};
+const metrics = data.metrics.filter(metric => !(metric.name in asked) || asked[metric.name]);
 const metricColumns = of => metrics.map(metric => ({
-  title: metric.name, hint: metric.sentence, best: metric.name !== 'edge',
+  title: metric.name, hint: metric.sentence, best: !['edge', 'against_mean'].includes(metric.name),
   value: row => of(row)[metric.name], show: row => figure(of(row)[metric.name]),
 }));
 
@@ -364,8 +365,8 @@ function overview() {
 const root = document.documentElement, dark = matchMedia('(prefers-color-scheme: dark)');
 let chosen = null;
 try { chosen = localStorage.getItem('gnomon-theme'); } catch { /* storage is off for some file: pages */ }
-const asked = new URLSearchParams(location.search).get('theme');
-if (asked === 'dark' || asked === 'light') chosen = asked;
+const themeAsked = new URLSearchParams(location.search).get('theme');
+if (themeAsked === 'dark' || themeAsked === 'light') chosen = themeAsked;
 const toggle = el('button', {type: 'button', onclick: () => {
   chosen = root.dataset.theme === 'dark' ? 'light' : 'dark';
   try { localStorage.setItem('gnomon-theme', chosen); } catch { /* not kept */ }
@@ -404,6 +405,7 @@ document.getElementById('masthead').append(
     fact('Driver', data.device.driver),
     fact('Reference', `${data.reference.samples} samples a light, ${data.reference.seconds.toFixed(1)} s`),
     fact('Its standard error', error === null ? absent : `${error.toExponential(1)} of the mean V`),
+    data.against ? fact('Held against', data.against) : '',
     fact('Timing', `median of ${data.repeat} frames after a warm-up`)),
   command(data.command));
 if (data.scenes.length > 1) {

@@ -50,7 +50,7 @@ std::optional<double> weighted_mean(std::span<const Errors> lights, std::optiona
 }  // namespace
 
 std::span<const MetricInfo> all_metrics() {
-    static constexpr std::array<MetricInfo, 11> metrics{{
+    static constexpr std::array<MetricInfo, 13> metrics{{
         {"rmse", "Root mean square of T - R.", &Errors::rmse},
         {"mae", "Mean of the absolute T - R.", &Errors::mae},
         {"max", "Largest absolute T - R.", &Errors::max},
@@ -62,6 +62,10 @@ std::span<const MetricInfo> all_metrics() {
         {"luma_rms", "Root mean square difference of the pictures' luma, on the scale of 0 to 255.", &Errors::luma_rms},
         {"flip", "Mean FLIP of the pictures: the difference an observer sees when they alternate.", &Errors::flip},
         {"flicker", "Root mean square change of T - R between frames at reprojected samples.", &Errors::flicker},
+        {"against", "Root mean square of T - A, A: the visibility of the recipe that --against names.",
+         &Errors::against},
+        {"against_mean", "Mean of T - A; above 0 the recipe lets more light through than that of --against.",
+         &Errors::against_mean},
     }};
     return metrics;
 }
@@ -108,6 +112,23 @@ Errors visibility_errors(std::span<const float> technique, std::span<const float
     return errors;
 }
 
+void hold_against(Errors& errors, std::span<const float> technique, std::span<const float> other,
+                  std::span<const std::uint8_t> counted) {
+    GN_CHECK_EQ(technique.size(), counted.size());
+    GN_CHECK_EQ(other.size(), counted.size());
+    Sum all;
+    double signed_sum = 0;
+    for (std::size_t i = 0; i < counted.size(); ++i) {
+        if (counted[i] != 0) {
+            const double difference = static_cast<double>(technique[i]) - static_cast<double>(other[i]);
+            all.add(std::isfinite(difference) ? difference : 1.0);
+            signed_sum += std::isfinite(difference) ? difference : 1.0;
+        }
+    }
+    errors.against = all.root_mean_square();
+    errors.against_mean = all.over_count(signed_sum);
+}
+
 Errors pool(std::span<const Errors> lights) {
     Errors pooled;
     for (const Errors& light : lights) {
@@ -126,6 +147,8 @@ Errors pool(std::span<const Errors> lights) {
     pooled.acne = weighted_mean(lights, &Errors::acne, &Errors::lit, false);
     pooled.penumbra = weighted_mean(lights, &Errors::penumbra, &Errors::partial, true);
     pooled.edge = weighted_mean(lights, &Errors::edge, &Errors::samples, false);
+    pooled.against = weighted_mean(lights, &Errors::against, &Errors::samples, true);
+    pooled.against_mean = weighted_mean(lights, &Errors::against_mean, &Errors::samples, false);
     return pooled;
 }
 

@@ -15,7 +15,8 @@ namespace gn {
 /// Every figure; a value that has no samples is absent, never 0.
 struct Errors {
     std::size_t samples = 0;
-    std::optional<double> rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker;
+    std::optional<double> rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker, against,
+        against_mean;
     std::size_t dark = 0, lit = 0,
                 partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
 };
@@ -24,7 +25,8 @@ struct MetricInfo {
     std::string_view name, sentence;
     std::optional<double> Errors::*value;
 };
-/// In the order of the report: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker.
+/// In the order of the report: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker,
+/// against, against_mean.
 std::span<const MetricInfo> all_metrics();
 
 /// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a
@@ -35,6 +37,10 @@ Errors visibility_errors(std::span<const float> technique, std::span<const float
 /// 1 for a counted pixel when R spans at least one half over the counted pixels of its 3 x 3 neighbourhood.
 std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::span<const std::uint8_t> counted,
                                       int width, int height);
+/// Fills `against` and `against_mean`: the technique's visibility held against that of another technique, over the
+/// same counted samples. What is not a number in either of them counts as a difference of 1.
+void hold_against(Errors& errors, std::span<const float> technique, std::span<const float> other,
+                  std::span<const std::uint8_t> counted);
 /// Several lights pooled: as if their samples were one list. Figures of pictures and paths are not samples of a light and
 /// stay absent.
 Errors pool(std::span<const Errors> lights);

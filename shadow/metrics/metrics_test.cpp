@@ -63,7 +63,7 @@ TEST(Metrics, NamesAreInOrder) {
         EXPECT_FALSE(metric.sentence.empty());
     }
     EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "penumbra",
-                                                    "edge", "luma_rms", "flip", "flicker"}));
+                                                    "edge", "luma_rms", "flip", "flicker", "against", "against_mean"}));
 }
 
 TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
@@ -74,8 +74,12 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     const Floats reference_b{1, 1, 1, 0.75F};
     const Floats technique_b{1, 0, 1, 0.25F};
     const Bytes counted_b{1, 1, 1, 1};
-    const Errors a = visibility_errors(technique_a, reference_a, counted_a, 4, 1);
-    const Errors b = visibility_errors(technique_b, reference_b, counted_b, 4, 1);
+    const Floats other_a{1, 0, 0.5F, 0};
+    const Floats other_b{0.5F, 0, 1, 0};
+    Errors a = visibility_errors(technique_a, reference_a, counted_a, 4, 1);
+    Errors b = visibility_errors(technique_b, reference_b, counted_b, 4, 1);
+    hold_against(a, technique_a, other_a, counted_a);
+    hold_against(b, technique_b, other_b, counted_b);
 
     Floats reference = reference_a;
     Floats technique = technique_a;
@@ -86,7 +90,11 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     reference.insert(reference.end(), reference_b.begin(), reference_b.end());
     technique.insert(technique.end(), technique_b.begin(), technique_b.end());
     counted.insert(counted.end(), counted_b.begin(), counted_b.end());
-    const Errors expected = visibility_errors(technique, reference, counted, 4, 3);
+    Floats other = other_a;
+    other.insert(other.end(), 4, 0.0F);
+    other.insert(other.end(), other_b.begin(), other_b.end());
+    Errors expected = visibility_errors(technique, reference, counted, 4, 3);
+    hold_against(expected, technique, other, counted);
 
     const std::vector<Errors> lights{a, b, Errors{}};
     const Errors pooled = pool(lights);
@@ -99,6 +107,20 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     }
     EXPECT_EQ(pool({}).samples, 0U);
     EXPECT_FALSE(pool({}).rmse.has_value());
+}
+
+TEST(Metrics, AgainstIsTheSignedAndTheRootMeanSquareDistance) {
+    // Differences .5, -.25, and 1 where one of the two is not a number; the last sample does not count.
+    const float broken = std::numeric_limits<float>::quiet_NaN();
+    Errors e;
+    hold_against(e, Floats{1, 0.25F, 0, 1}, Floats{0.5F, 0.5F, broken, 0}, Bytes{1, 1, 1, 0});
+    EXPECT_NEAR(e.against.value(), std::sqrt((0.25 + 0.0625 + 1) / 3), 1e-12);
+    EXPECT_NEAR(e.against_mean.value(), (0.5 - 0.25 + 1) / 3, 1e-12);
+    // Nothing counts: nothing is said; nor is it where nobody asked.
+    Errors none;
+    hold_against(none, Floats{1}, Floats{0}, Bytes{0});
+    EXPECT_FALSE(none.against.has_value());
+    EXPECT_FALSE(visibility_errors(Floats{1}, Floats{0}, Bytes{1}, 1, 1).against.has_value());
 }
 
 TEST(Edge, HardBorderMarksBothSides) {
