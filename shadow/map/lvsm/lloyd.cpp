@@ -33,8 +33,8 @@ void main() {
     if (weight == 0u) {
         return;
     }
-    uint bin = gl_GlobalInvocationID.z * uint(GN_LLOYD_BINS) +
-               uint(clamp(int(second.x * float(GN_LLOYD_BINS)), 0, GN_LLOYD_BINS - 1));
+    uint bin = gl_GlobalInvocationID.z * uint(GN_LVSM_BINS) +
+               uint(clamp(int(second.x * float(GN_LVSM_BINS)), 0, GN_LVSM_BINS - 1));
     uint before = atomicAdd(bins[2u * bin], weight);
     if (before + weight < before) {
         atomicAdd(bins[2u * bin + 1u], 1u);
@@ -43,11 +43,12 @@ void main() {
 )";
 
 constexpr const char* relax_text = R"(
-shared vec3 prefix[1025];
+#include "shadow/map/lvsm/lvsm.h"
+shared vec3 prefix[GN_LVSM_BINS + 1];
 #define GN_LLOYD_BEFORE(i) prefix[i]
 #include "shadow/map/lvsm/lloyd.glsl"
 #define THREADS 128
-#define RUN (GN_LLOYD_BINS / THREADS)
+#define RUN (GN_LVSM_BINS / THREADS)
 layout(local_size_x = THREADS) in;
 layout(binding = 0, scalar) readonly buffer Bins { uint bins[]; };
 layout(binding = 1, r32f) uniform image2DArray splits;
@@ -60,9 +61,9 @@ void main() {
     // Sum each thread's run of bins.
     vec3 sum = vec3(0);
     for (int i = thread * RUN; i < (thread + 1) * RUN; ++i) {
-        uint bin = uint(row * GN_LLOYD_BINS + i);
+        uint bin = uint(row * GN_LVSM_BINS + i);
         float weight = float(bins[2u * bin]) + 4294967296.0 * float(bins[2u * bin + 1u]);
-        float x = (float(i) + 0.5) / float(GN_LLOYD_BINS) - 0.5;
+        float x = (float(i) + 0.5) / float(GN_LVSM_BINS) - 0.5;
         prefix[i] = sum;
         sum += weight * vec3(1.0, x, x * x);
     }
@@ -79,7 +80,7 @@ void main() {
         prefix[i] += thread > 0 ? runs[thread - 1] : vec3(0);
     }
     if (thread == THREADS - 1) {
-        prefix[GN_LLOYD_BINS] = runs[thread];
+        prefix[GN_LVSM_BINS] = runs[thread];
     }
     barrier();
     if (thread != 0) {
@@ -92,7 +93,7 @@ void main() {
             s.at[k] = imageLoad(splits, ivec3(k, row, 0)).r;
         }
     }
-    if (prefix[GN_LLOYD_BINS].x > 0.0) {
+    if (prefix[GN_LVSM_BINS].x > 0.0) {
         for (int i = 0; i < u.params.iterations; ++i) {
             s = gn_lloyd_iterate(s, u.params.layers);
         }
@@ -134,8 +135,8 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
     } else {
         splits = graph.create(desc);
     }
-    const BufferHandle bins = graph.create(
-        BufferDesc{.name = "lvsm histogram", .bytes = VkDeviceSize{source.layers} * 1024 * 2 * sizeof(std::uint32_t)});
+    const BufferHandle bins = graph.create(BufferDesc{
+        .name = "lvsm histogram", .bytes = VkDeviceSize{source.layers} * GN_LVSM_BINS * 2 * sizeof(std::uint32_t)});
 
     graph.add_pass(
         "lvsm: empty histogram", [&](PassBuilder& pass) { pass.copy_to(bins); },

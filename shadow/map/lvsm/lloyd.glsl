@@ -4,14 +4,12 @@
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
 // Departs from it: means come from prefix sums over a histogram of depths, not from a mip pyramid for every two splits.
 //
-// Before including, define GN_LLOYD_BEFORE(i), i from 0 to GN_LLOYD_BINS: the sums over the bins before i of
+// Before including, define GN_LLOYD_BEFORE(i), i from 0 to GN_LVSM_BINS: the sums over the bins before i of
 // vec3(weight, weight x, weight x^2) where x is the middle of the bin minus one half.
 #ifndef GN_SHADOW_MAP_LVSM_LLOYD_GLSL
 #define GN_SHADOW_MAP_LVSM_LLOYD_GLSL
 
 #include "shadow/map/lvsm/lvsm.h"
-
-#define GN_LLOYD_BINS 1024
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -38,18 +36,18 @@ GN_FN GnLloydSplits gn_lloyd_uniform(int layers) {
     return splits;
 }
 
-GN_FN int gn_lloyd_bin(float depth) { return clamp(int(depth * float(GN_LLOYD_BINS) + 0.5f), 0, GN_LLOYD_BINS); }
+GN_FN int gn_lloyd_bin(float depth) { return clamp(int(depth * float(GN_LVSM_BINS) + 0.5f), 0, GN_LVSM_BINS); }
 
 // The bins of the cluster around split k: up to the middle between it and its neighbours.
 GN_FN ivec2 gn_lloyd_cluster(GnLloydSplits splits, int layers, int k) {
     return ivec2(k == 1 ? 0 : gn_lloyd_bin(0.5f * (splits.at[k - 1] + splits.at[k])),
-                 k == layers - 1 ? GN_LLOYD_BINS : gn_lloyd_bin(0.5f * (splits.at[k] + splits.at[k + 1])));
+                 k == layers - 1 ? GN_LVSM_BINS : gn_lloyd_bin(0.5f * (splits.at[k] + splits.at[k + 1])));
 }
 
 GN_FN vec3 gn_lloyd_sums(ivec2 bins) { return GN_LLOYD_BEFORE(bins.y) - GN_LLOYD_BEFORE(bins.x); }
 
 // What is less than rounding of the prefix sums counts as empty.
-GN_FN bool gn_lloyd_empty(vec3 sums) { return sums.x <= 1.0e-5f * vec3(GN_LLOYD_BEFORE(GN_LLOYD_BINS)).x; }
+GN_FN bool gn_lloyd_empty(vec3 sums) { return sums.x <= 1.0e-5f * vec3(GN_LLOYD_BEFORE(GN_LVSM_BINS)).x; }
 
 GN_FN float gn_lloyd_mean(vec3 sums) { return 0.5f + sums.y / sums.x; }
 
@@ -68,7 +66,7 @@ GN_FN GnLloydSplits gn_lloyd_teleport(GnLloydSplits splits, int layers) {
         vec3 sums = gn_lloyd_sums(gn_lloyd_cluster(splits, layers, k));
         if (gn_lloyd_empty(sums)) {
             empty = empty == 0 ? k : empty;
-        } else if (sums.x > most && gn_lloyd_spread(sums) > 2.0f / float(GN_LLOYD_BINS)) {
+        } else if (sums.x > most && gn_lloyd_spread(sums) > 2.0f / float(GN_LVSM_BINS)) {
             most = sums.x;
             heaviest = k;
         }

@@ -2,7 +2,7 @@
 // Layered variance shadow maps: each layer stretches one interval of depths over the whole range of its two moments.
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
-// Departs from it: a relaxed split lies behind the surface it was found on, not in it.
+// Departs from it: a relaxed split lies behind the surface it was found on, not in it, and transitions behind the split.
 #ifndef GN_SHADOW_MAP_LVSM_GLSL
 #define GN_SHADOW_MAP_LVSM_GLSL
 
@@ -25,10 +25,11 @@ GN_FN vec2 gn_lvsm_interval(int i, float near_split, float far_split, GnLvsmPara
     return vec2(i == 0 ? near_split : near_split - reach, i == params.layers - 1 ? far_split : far_split + reach);
 }
 
-// A relaxed split sits on a surface, the second occluder. Put it one overlap behind: the surface lies whole in the nearer
-// layer, and flat on the front of the farther.
+// A relaxed split sits on a surface, the second occluder. Put it one overlap behind, and no less than the histogram's bins
+// blur it: the surface lies whole in the nearer layer, and flat on the front of the farther.
 GN_FN float gn_lvsm_behind(float second_occluder, int k, GnLvsmParams params) {
-    return k == 0 || k == params.layers ? second_occluder : second_occluder + gn_lvsm_overlap(params);
+    float behind = max(gn_lvsm_overlap(params), 2.0f / float(GN_LVSM_BINS));
+    return k == 0 || k == params.layers ? second_occluder : second_occluder + behind;
 }
 
 GN_FN float gn_lvsm_width(vec2 interval) { return max(interval.y - interval.x, 1.0e-5f); }
@@ -46,21 +47,24 @@ GN_FN vec2 gn_lvsm_moments(float depth, float spread, vec2 interval) {
     return vec2(warped, warped * warped + (within ? spread / (width * width) : 0.0f));
 }
 
-// Variance that may be rounding: the three times that a 16-bit moment is rounded (drawn, blurred twice) move
-// M2 - M1^2 by half a unit for the second moment and by twice that for the first.
-GN_FN float gn_lvsm_rounding(int format) { return format == GN_LVSM_UNORM16 ? 4.5f / 65535.0f : 0.0f; }
+// Variance that may be rounding: each of the three times that a 16-bit moment is rounded (drawn, blurred twice) moves
+// M2 - M1^2 by half a unit for the second moment and by 2 M1 times that for the first.
+GN_FN float gn_lvsm_rounding(float mean, int format) {
+    return format == GN_LVSM_UNORM16 ? 1.5f * (1.0f + 2.0f * mean) / 65535.0f : 0.0f;
+}
 
 // Visibility of a receiver in one layer: Chebyshev's bound on the warped distribution.
 GN_FN float gn_lvsm_bound(vec2 moments, float depth, vec2 interval, float min_deviation, GnLvsmParams params) {
     float deviation = min_deviation / gn_lvsm_width(interval);
-    float min_variance = max(deviation * deviation, gn_lvsm_rounding(params.format));
+    float min_variance = max(deviation * deviation, gn_lvsm_rounding(moments.x, params.format));
     return gn_vsm_reduce_bleeding(gn_vsm_chebyshev(moments, gn_lvsm_warp(depth, interval), min_variance),
                                   params.bleeding);
 }
 
-// How much of the farther layer a receiver takes that lies `beyond` a split: from 0 to 1 over the overlap.
+// How much of the farther layer a receiver takes that lies `beyond` a split: from 0 to 1 between the split and the end of
+// the nearer layer. Before the split the farther layer's front is too near: what lies flat on it seems lit.
 GN_FN float gn_lvsm_transition(float beyond, float reach) {
-    return reach > 0.0f ? smoothstep(-reach, reach, beyond) : (beyond < 0.0f ? 0.0f : 1.0f);
+    return reach > 0.0f ? smoothstep(0.0f, reach, beyond) : 1.0f;
 }
 
 #ifdef __cplusplus
@@ -93,15 +97,12 @@ float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected 
     float near_split = gn_lvsm_split(splits, projected.layer, i, params);
     float far_split = gn_lvsm_split(splits, projected.layer, i + 1, params);
 
-    // Near a split both its layers answer; transitions of one layer never meet.
-    float reach = min(params.transition * gn_lvsm_overlap(params), 0.5 * (far_split - near_split));
+    // Just behind a split both its layers answer.
+    float reach = min(params.transition * gn_lvsm_overlap(params), far_split - near_split);
     float v = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i, params);
     if (i > 0 && projected.depth - near_split < reach) {
         float nearer = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i - 1, params);
         v = mix(nearer, v, gn_lvsm_transition(projected.depth - near_split, reach));
-    } else if (i + 1 < params.layers && far_split - projected.depth < reach) {
-        float farther = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i + 1, params);
-        v = mix(v, farther, gn_lvsm_transition(projected.depth - far_split, reach));
     }
     return v;
 }
