@@ -192,4 +192,36 @@ double falloff(double angle, double half_field) {
     return angle >= c ? 0 : eta_b - eta_b * std::sin(half_turn / 2 * (angle - b) / (c - b));
 }
 
+namespace {
+
+/// The rectangle turns to the unwarped map's as the warp fades, so that the two meet.
+Warp even_warp(const Plane2& plane, double eta) {
+    const double fade = std::clamp((-0.2 - eta) / 0.8, 0.0, 1.0);
+    return make_warp(plane, strength_of(eta, plane.near, plane.far, plane.length), fade * plane.turn);
+}
+
+}  // namespace
+
+GnLightView even_view(const Plane2& plane, double eta) {
+    const double full = (1 + falloff(plane.angle, plane.half_field)) * (1 + eta);
+    if (full <= 0) {
+        return plane.fitted;
+    }
+
+    // Take the full warp where it does no harm; else the strongest that does none, by bisection.
+    const double limit = 1.001 * worst_error(plane, even_warp(plane, -1));
+    const Warp best = even_warp(plane, full - 1);
+    if (worst_error(plane, best) <= limit) {
+        return view_of(plane, best);
+    }
+    double low = 0;
+    double high = full;
+    for (int step = 0; step < 20; ++step) {
+        const double middle = 0.5 * (low + high);
+        const Warp tried = even_warp(plane, middle - 1);
+        (worst_error(plane, tried) <= limit ? low : high) = middle;
+    }
+    return low <= 1e-5 ? plane.fitted : view_of(plane, even_warp(plane, low - 1));
+}
+
 }  // namespace gn::warp

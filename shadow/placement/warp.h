@@ -61,10 +61,20 @@ double strength_of(double eta, double near, double far, double length);
 /// The parameter falls from 0 to -1 as the light turns into the view. Angles in radians.
 double falloff(double angle, double half_field);
 
+/// The warp of light space perspective shadow maps: the even error's at eta = 0, faded by the falloff, and at most so
+/// strong that no receiver gets a coarser texel on screen than the coarsest of the unwarped map.
+GnLightView even_view(const Plane2& plane, double eta);
+/// A receiver this near, in metres, steers the warp unless asked otherwise.
+inline constexpr double usual_near = 1;
+
+/// The plane of a body of receivers under its fitted view, or nothing where there is no direction or depth to warp along.
+/// `pseudo_near` in metres: nearer receivers are in the map but do not steer the warp.
+std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                               const Recipe& recipe, double pseudo_near);
+
 /// The views of a part: `choose` gets the plane and returns the warped view. Where there is nothing to warp (the view
 /// looks along the light, no depth, receivers around the light) the views are `fit`'s.
 using Choose = GnLightView (*)(const Plane2& plane, const Recipe& recipe);
-/// `pseudo_near` in metres: nearer receivers are in the map but do not steer the warp.
 LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_near, Choose choose);
 
 }  // namespace gn::warp

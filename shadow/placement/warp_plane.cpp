@@ -36,7 +36,7 @@ dvec4 row_of(const mat4& m, int row) {
 }
 
 /// The fitted view's plane in one unit on both axes, its axes still along the fitted rectangle.
-Plane2 plane_of(const GnLightView& fitted) {
+Plane2 unturned(const GnLightView& fitted) {
     Plane2 plane;
     plane.fitted = fitted;
     plane.w_row = row_of(fitted.cs_from_ws, 3);
@@ -86,11 +86,12 @@ void set_angles(Plane2& plane, const View& view, dvec3 ray) {
         std::atan(std::min(view.tangent_x * size / std::max(x, 1e-12), view.tangent_y * size / std::max(y, 1e-12)));
 }
 
-/// Everything that the strength of a warp depends on; nothing where there is no direction or depth to warp along.
-std::optional<Plane2> warp_plane(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
-                                 const Recipe& recipe, double pseudo_near) {
+}  // namespace
+
+std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                               const Recipe& recipe, double pseudo_near) {
     const View view = view_of_camera(input);
-    Plane2 plane = plane_of(fitted);
+    Plane2 plane = unturned(fitted);
     const bool positional = fitted.eye_ws.w > 0.5F;
 
     // The view direction's image at the body's centre.
@@ -137,8 +138,6 @@ std::optional<Plane2> warp_plane(const FrameInput& input, const ConvexBody& body
     return flat ? std::nullopt : std::optional(plane);
 }
 
-}  // namespace
-
 LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_near, Choose choose) {
     const GnLight& light = input.light().shape;
     LightViews views;
@@ -164,7 +163,7 @@ LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_ne
     }
 
     // Warp.
-    const auto plane = nothing ? std::nullopt : warp_plane(input, body, fitted, recipe, pseudo_near);
+    const auto plane = nothing ? std::nullopt : plane_of(input, body, fitted, recipe, pseudo_near);
     views.views = {plane ? choose(*plane, recipe) : fitted};
     return views;
 }

@@ -43,27 +43,81 @@ Interval widened(Interval interval, Guard guard, int resolution) {
     return {interval.near - margin, interval.far + margin};
 }
 
+/// Square of the distance from the axis to the frustum's corners, per distance along it.
+double corner_slope(const Camera& camera, double aspect) {
+    const double tangent = std::tan(0.5 * static_cast<double>(camera.yfov));
+    return tangent * tangent * (1 + aspect * aspect);
+}
+
+/// The scene's bounds on the light's plane: the rectangle of least area, as still as the scene.
+struct SceneWindow {
+    dvec3 x{1, 0, 0}, y{0, 1, 0};
+    dvec2 centre{0}, half{0};  ///< along x and y, metres
+};
+
+SceneWindow scene_window(const GnLight& light, const Box& scene_ws) {
+    const Box box_ws = scene_ws.empty() ? Box{vec3(-1), vec3(1)} : scene_ws;
+    const GnLightView fitted = fit_orthographic(body_of(box_ws), light, 1, {});
+    SceneWindow window;
+    for (int axis = 0; axis < 2; ++axis) {
+        const dvec4 row = row_of(fitted.cs_from_ws, axis);
+        window.half[axis] = 1 / glm::length(dvec3(row));
+        (axis == 0 ? window.x : window.y) = dvec3(row) * window.half[axis];
+        window.centre[axis] = -row.w * window.half[axis];
+    }
+    // A flat scene seen edge-on still has a width.
+    window.half = glm::max(window.half, dvec2(1e-3 * std::max(window.half.x, window.half.y)));
+    return window;
+}
+
+/// The least distance along the axis at which a camera outside the scene can see any of it, in steps of two so that it
+/// changes only when the camera has moved far.
+double first_distance(const Camera& camera, double aspect, const Box& box_ws) {
+    const dvec3 eye(camera.position_ws);
+    const dvec3 nearest = glm::clamp(eye, dvec3(box_ws.min), dvec3(box_ws.max));
+    const double diagonal = static_cast<double>(box_ws.diagonal());
+    const double least = glm::length(nearest - eye) / std::sqrt(1 + corner_slope(camera, aspect));
+    return least > 1e-6 * diagonal ? diagonal * std::exp2(std::floor(std::log2(least / diagonal))) : 0.0;
+}
+
+/// Distances that hold whatever can be seen, however the camera turns and moves by a little.
+Interval stable_range(const FrameInput& input, const GnCascadesParams& params, Interval range) {
+    const Camera& camera = input.samples.camera;
+    const Box& box_ws = input.scene.bounds_ws;
+    const double aspect = static_cast<double>(input.samples.width) / static_cast<double>(input.samples.height);
+    range.near = std::clamp(first_distance(camera, aspect, box_ws), range.near, range.far / 1.001);
+
+    // Nothing lies farther than the scene's diagonal from a camera inside it; outside, double until that holds.
+    double reach = std::max(1.001 * static_cast<double>(box_ws.diagonal()), 2 * range.near);
+    const double needed = farthest(box_ws, camera.position_ws);
+    while (reach < needed && reach < range.far) {
+        reach *= 2;
+    }
+    range.far = std::min(range.far, reach);
+    if (params.distance > 0) {
+        return range;
+    }
+
+    // A sphere that ends here is as wide as the scene. The last window holds the scene and all beyond: split before it.
+    const SceneWindow window = scene_window(input.light().shape, box_ws);
+    const double wide = 1.001 * std::max(window.half.x, window.half.y) / std::sqrt(corner_slope(camera, aspect));
+    range.far = std::clamp(wide, 1.001 * range.near, range.far);
+    return range;
+}
+
 }  // namespace
 
 Interval range_of(const FrameInput& input, const GnCascadesParams& params) {
     const Camera& camera = input.samples.camera;
-    const Box& box_ws = input.scene.bounds_ws;
     Interval range{camera.near, camera.far};
     if (params.distance > 0) {
         range.far = std::clamp(static_cast<double>(params.distance), 1.001 * range.near, range.far);
     }
-    if (box_ws.empty()) {
+    if (input.scene.bounds_ws.empty()) {
         return range;
     }
     if (params.fit == GN_FIT_STABLE && params.split < GN_SPLIT_SDSM_MINMAX) {
-        // Nothing lies farther than the scene's diagonal from a camera inside it; outside, double until that holds.
-        double reach = std::max(1.001 * static_cast<double>(box_ws.diagonal()), 2 * range.near);
-        const double needed = farthest(box_ws, camera.position_ws);
-        while (reach < needed && reach < range.far) {
-            reach *= 2;
-        }
-        range.far = std::min(range.far, reach);
-        return range;
+        return stable_range(input, params, range);
     }
     // The potential receivers' own range.
     const ConvexBody body = potential_receivers(input, range.near, range.far);
@@ -154,26 +208,30 @@ Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, in
     // Positions are rounded to float before anything else: three products and two sums lose up to this many metres.
     const vec3 largest = scene_ws.empty() ? vec3(1) : glm::max(glm::abs(scene_ws.min), glm::abs(scene_ws.max));
     const double rounding = static_cast<double>(largest.x + largest.y + largest.z) * 0x1p-22;
-    const double reach = sphere.radius + static_cast<double>(guard.metres) + rounding;
+    const double more = static_cast<double>(guard.metres) + rounding;
+
+    // Along each axis the window follows the sphere, or stands still around the scene where that is smaller.
+    const SceneWindow scene = scene_window(light, scene_ws);
+    const double round = (sphere.radius + more) * (1 + spare);
+    Grid grid;
+    dvec2 reach(0);
+    for (int axis = 0; axis < 2; ++axis) {
+        grid.still[axis] = !scene_ws.empty() && scene.half[axis] + more <= round;
+        reach[axis] = grid.still[axis] ? scene.half[axis] + more : round;
+    }
 
     // Windows sit on whole texels. Beyond 2^23 texels from the origin a float offset holds only every other one, or fewer.
-    double step = 1;
-    while (rounding * 0x1p22 * resolution > step * 0x1p23 * 2 * reach) {
-        step *= 2;
+    while (rounding * 0x1p22 * resolution > grid.step * 0x1p23 * 2 * std::min(reach.x, reach.y)) {
+        grid.step *= 2;
     }
-    const double margin = static_cast<double>(guard.texels) + step;
-    const double share = std::min(0.4, margin / resolution);
-    const double half = reach * (1 + spare) / (1 - 2 * share);
-
-    Grid grid;
+    const double share = std::min(0.4, (static_cast<double>(guard.texels) + grid.step) / resolution);
+    const dvec2 half = reach / (1 - 2 * share);
+    const double free = 1 - (sphere.radius + more) * (1 - 2 * share) / round;
+    grid.margin = 0.5 * resolution * free - static_cast<double>(guard.texels);
     grid.resolution = resolution;
-    grid.step = step;
-    grid.margin = 0.5 * resolution * (1 - reach / half) - static_cast<double>(guard.texels);
-    vec3 x;
-    vec3 y;
-    complete_frame(vec3(light.direction_ws), x, y);
-    set_row(grid.view.cs_from_ws, 0, dvec4(dvec3(x) / half, -1));
-    set_row(grid.view.cs_from_ws, 1, dvec4(dvec3(y) / half, -1));
+    set_row(grid.view.cs_from_ws, 0, dvec4(scene.x / half.x, -1));
+    set_row(grid.view.cs_from_ws, 1, dvec4(scene.y / half.y, -1));
+    grid.home = 0.5 * resolution * scene.centre / half;
 
     // Depth runs over the whole scene: it must not follow the camera either.
     const dvec3 axis = axis_of(light);
@@ -194,8 +252,28 @@ dvec2 texel_of(const Grid& grid, dvec3 p_ws) {
     return 0.5 * grid.resolution * dvec2(glm::dot(u, p_ws), glm::dot(v, p_ws));
 }
 
-ivec2 window_around(const Grid& grid, dvec3 centre_ws) {
+namespace {
+
+/// The texel at the window's centre: the point's, or along a still axis the scene's.
+dvec2 centre_of(const Grid& grid, dvec3 centre_ws) {
     const dvec2 centre = texel_of(grid, centre_ws);
+    return {grid.still.x ? grid.home.x : centre.x, grid.still.y ? grid.home.y : centre.y};
+}
+
+/// Texel g stands at g 2 / n in clip units before the offset: exact for n a power of two and whole g.
+GnLightView shifted(const Grid& grid, dvec2 first) {
+    GnLightView view = grid.view;
+    for (int axis = 0; axis < 2; ++axis) {
+        view.cs_from_ws[3][axis] = static_cast<float>(-2.0 * first[axis] / grid.resolution - 1.0);
+    }
+    view.ws_from_cs = mat4(glm::inverse(dmat4(view.cs_from_ws)));
+    return view;
+}
+
+}  // namespace
+
+ivec2 window_around(const Grid& grid, dvec3 centre_ws) {
+    const dvec2 centre = centre_of(grid, centre_ws);
     ivec2 first(0);
     for (int axis = 0; axis < 2; ++axis) {
         double step = grid.step;
@@ -209,33 +287,35 @@ ivec2 window_around(const Grid& grid, dvec3 centre_ws) {
 }
 
 GnLightView view_of(const Grid& grid, ivec2 first) {
-    // Texel g stands at g 2 / n in clip units before the offset: exact for n a power of two.
-    GnLightView view = grid.view;
-    for (int axis = 0; axis < 2; ++axis) {
-        view.cs_from_ws[3][axis] = static_cast<float>(-2.0 * static_cast<double>(first[axis]) / grid.resolution - 1.0);
-    }
-    view.ws_from_cs = mat4(glm::inverse(dmat4(view.cs_from_ws)));
+    return shifted(grid, dvec2(first));
+}
+
+GnLightView loose_view(const Grid& grid, dvec3 centre_ws) {
+    GnLightView view = shifted(grid, centre_of(grid, centre_ws) - 0.5 * grid.resolution);
+    view.grid = 0;
     return view;
 }
 
 std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view) {
-    std::vector<std::uint32_t> casters;
-    const dvec4 u = row_of(view.cs_from_ws, 0);
-    const dvec4 v = row_of(view.cs_from_ws, 1);
-    const dvec4 d = row_of(view.cs_from_ws, 2);
-
-    // Extend the rectangle a little: rounding moves vertices by less than a texel.
+    // Before the near plane everything casts; behind the far plane nothing. The rectangle is extended a little: rounding
+    // moves vertices by less than a texel.
     const double border = 1 + 4.0 / static_cast<double>(view.resolution);
+    const dvec4 w = border * row_of(view.cs_from_ws, 3);
+    std::vector<dvec4> inside{dvec4(0, 0, 0, 1 + 1e-3) - dvec4(view.depth_from_ws)};
+    for (int axis = 0; axis < 2; ++axis) {
+        inside.push_back(w - row_of(view.cs_from_ws, axis));
+        inside.push_back(w + row_of(view.cs_from_ws, axis));
+    }
+
+    // A box casts unless it lies wholly outside one of the planes.
+    std::vector<std::uint32_t> casters;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Box& box_ws = scene.objects[i].bounds_ws;
         const dvec4 centre(dvec3(box_ws.centre()), 1);
         const dvec3 half(0.5F * box_ws.extent());
-        const auto away = [&](const dvec4& row) {
-            return std::abs(glm::dot(row, centre)) - glm::dot(glm::abs(dvec3(row)), half);
-        };
-        // Before the near plane everything casts; behind the far plane nothing.
-        const double nearest = glm::dot(d, centre) - glm::dot(glm::abs(dvec3(d)), half);
-        if (away(u) <= border && away(v) <= border && nearest <= 1 + 1e-3) {
+        if (std::all_of(inside.begin(), inside.end(), [&](const dvec4& plane) {
+                return glm::dot(plane, centre) + glm::dot(glm::abs(dvec3(plane)), half) >= 0;
+            })) {
             casters.push_back(static_cast<std::uint32_t>(i));
         }
     }

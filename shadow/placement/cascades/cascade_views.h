@@ -12,8 +12,9 @@ struct Interval {
     double near = 0, far = 0;
 };
 
-/// What the cascades share. Stable cascades take it from the camera's optics and the size of the scene alone, so that it
-/// does not change while the camera moves inside the scene; the others from the potential receivers.
+/// What the cascades share. Stable cascades take it from the camera's optics and the scene's bounds alone, so that it does
+/// not change while the camera moves inside the scene, and outside only by steps of two; the others from the potential
+/// receivers. The last cascade also serves what lies beyond, as far as its map holds it.
 Interval range_of(const FrameInput& input, const GnCascadesParams& params);
 
 /// The slice of each cascade: from its split backwards by the band of the transition before it.
@@ -41,14 +42,16 @@ struct Sphere {
 Sphere sphere_around(Interval slice, double yfov, double aspect);
 
 /// The texel grid of one stable cascade: an endless plane of texels fixed to the world, of which a map is a window.
-/// Axes and texel size depend on the light, the optics and the scene's size, never on where the camera is.
+/// Axes and texel size depend on the light, the optics and the scene's bounds, never on where the camera is.
 struct Grid {
     GnLightView view;  ///< its window begins at texel (0, 0)
     int resolution = 0;
-    double step = 1;    ///< texels that windows move by
-    double margin = 0;  ///< texels between the sphere, widened by the kernels' reach, and the window's border
+    double step = 1;          ///< texels that windows move by
+    double margin = 0;        ///< texels between the sphere, widened by the kernels' reach, and the window's border
+    glm::bvec2 still{false};  ///< along which axes the window holds the whole scene and stays where it is
+    dvec2 home{0};            ///< texel of the scene's centre
 };
-/// `spare` widens the window by a share of itself, for windows that follow the camera late.
+/// `spare` widens windows that follow the camera, by a share of themselves, so that they may follow late.
 Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, int resolution, Guard guard,
              double spare);
 /// The grid coordinates of a point, in texels.
@@ -57,6 +60,8 @@ dvec2 texel_of(const Grid& grid, dvec3 p_ws);
 ivec2 window_around(const Grid& grid, dvec3 centre_ws);
 /// The view of the window that begins at texel `first`.
 GnLightView view_of(const Grid& grid, ivec2 first);
+/// The view centred on a point to the last bit, on no grid: what snapping is measured against.
+GnLightView loose_view(const Grid& grid, dvec3 centre_ws);
 
 /// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
 std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Several maps for one sun: the view is split along its axis, each slice has a layer of its own.
 // Also here: cascade_views.h, cascade_views.cpp (slices and the views around them), keep.cpp (maps kept over frames),
-// sdsm.h, sdsm.cpp (splits and views from the samples).
+// sdsm.h, sdsm.cpp (splits and views from the samples). Tests: stable_test.cpp, warped_test.cpp, sdsm_test.cpp,
+// picture_test.cpp.
 //
 // Based on: Zhang, Sun, Xu, Lun. Parallel-Split Shadow Maps for Large-scale Virtual Environments. VRCIA 2006. [ZSXL06]
 #include "shadow/placement/cascades/cascade_views.h"
+#include "shadow/placement/warp.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace gn {
@@ -23,26 +26,45 @@ bool layered(const Device& device, const GnCascadesParams& params) {
     return wanted && device.has(Feature::layer_from_vertex_shader);
 }
 
-/// Boxes or rectangles of least area around the receivers of each slice.
+/// One slice's receivers: their box, rectangle of least area, or warped map.
+GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit) {
+    const GnLight& light = input.light().shape;
+    const Guard guard = guard_of(recipe);
+    if (fit == GN_FIT_PLAIN) {
+        return plain_view(body, facing(input.samples.camera, light), recipe.resolution, guard);
+    }
+    const GnLightView fitted = fit_orthographic(body, light, recipe.resolution, guard);
+    if (fit != GN_FIT_WARPED) {
+        return fitted;
+    }
+    const auto plane = warp::plane_of(input, body, fitted, recipe, warp::usual_near);
+    return plane ? warp::even_view(*plane, 0) : fitted;
+}
+
+/// Views around the receivers of each slice.
 void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
                      std::span<const Interval> slices, LightViews& views) {
-    const GnLight& light = input.light().shape;
-    const LightFrame frame = facing(input.samples.camera, light);
     for (const Interval& slice : slices) {
         ConvexBody body = potential_receivers(input, slice.near, slice.far);
         if (body.empty()) {
             // Nothing can receive: any view will do.
             body = body_of(Box{input.samples.camera.position_ws - 1.0F, input.samples.camera.position_ws + 1.0F});
         }
-        views.views.push_back(params.fit == GN_FIT_PLAIN
-                                  ? plain_view(body, frame, recipe.resolution, guard_of(recipe))
-                                  : fit_orthographic(body, light, recipe.resolution, guard_of(recipe)));
+        views.views.push_back(tight_view(input, recipe, body, params.fit));
+    }
+
+    // A layered pass draws all views by one pipeline: where one map is warped, all get their depth from fragments.
+    if (std::any_of(views.views.begin(), views.views.end(), [](const GnLightView& v) { return v.affine_depth == 0; })) {
+        for (GnLightView& view : views.views) {
+            view.affine_depth = 0;
+        }
     }
 
     // A receiver may be served by a cascade of another slice: then all share one range of depths.
     const ConvexBody all = potential_receivers(input);
     if (params.select == GN_SELECT_PROJECTION && !all.empty()) {
-        Interval depth = extent_of(all, frame.z);
+        const GnLight& light = input.light().shape;
+        Interval depth = extent_of(all, dvec3(vec3(light.direction_ws)));
         const double slack = 1e-4 * std::max(depth.far - depth.near, 1e-3);
         depth = {depth.near - slack - static_cast<double>(guard_of(recipe).metres), depth.far + slack};
         for (GnLightView& view : views.views) {
@@ -64,7 +86,7 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
             grid_of(sphere, input.light().shape, input.scene.bounds_ws, recipe.resolution, guard_of(recipe), spare);
         const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
         windows.push_back({grid, centre});
-        views.views.push_back(view_of(grid, window_around(grid, centre)));
+        views.views.push_back(params.snap != 0 ? view_of(grid, window_around(grid, centre)) : loose_view(grid, centre));
     }
     return windows;
 }
@@ -112,6 +134,14 @@ std::string refuses_cascades(const Scene&, const Light&, const Recipe& recipe) {
         return "cascades.scroll and cascades.rate keep maps over frames, which only stable windows allow; use "
                "cascades.fit=stable with a split other than sdsm-minmax and sdsm-histogram";
     }
+    if (params.fit == GN_FIT_WARPED && !by_samples(params) && params.select == GN_SELECT_PROJECTION) {
+        return "cascades.select=projection asks which rectangle holds a receiver, and warped maps are none; use "
+               "cascades.select=distance, or cascades.fit=plain, fitted or stable";
+    }
+    if (kept && params.snap == 0) {
+        return "cascades.scroll and cascades.rate keep maps over frames, which only windows on whole texels allow; use "
+               "cascades.snap=1";
+    }
     if (kept && !std::has_single_bit(static_cast<unsigned>(recipe.resolution))) {
         return fmt::format(
             "cascades.scroll and cascades.rate keep whole texels exactly only at a resolution that is a "
@@ -144,10 +174,14 @@ std::vector<ParamRow> split_rows() {
 ParamTable rows() {
     std::vector<ParamRow> all = split_rows();
     const std::vector<ParamRow> more{
-        GN_CHOICE(GnCascadesParams, fit,
-                  "What each map covers: a box, the rectangle of least area, or a window of a fixed grid that does not "
-                  "shimmer; the sdsm splits always take the samples' box.",
-                  "plain", "fitted", "stable"),
+        GN_CHOICE(
+            GnCascadesParams, fit,
+            "What each map covers: a box, the rectangle of least area, a window of a fixed grid that does not "
+            "shimmer, or that rectangle warped towards the near end of its slice; the sdsm splits always take the "
+            "samples' box.",
+            "plain", "fitted", "stable", "warped"),
+        GN_PARAM(GnCascadesParams, snap, boolean, 0, 1, "",
+                 "Moves stable windows by whole texels; without it they follow the camera exactly, and edges crawl."),
         GN_CHOICE(GnCascadesParams, transition,
                   "How one slice gives way to the next: a line, a mixture at twice the cost there, or noise.", "none",
                   "blend", "dither"),

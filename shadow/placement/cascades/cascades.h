@@ -17,6 +17,7 @@
 #define GN_FIT_PLAIN 0
 #define GN_FIT_FITTED 1
 #define GN_FIT_STABLE 2
+#define GN_FIT_WARPED 3
 
 #define GN_TRANSITION_NONE 0
 #define GN_TRANSITION_BLEND 1
@@ -36,6 +37,7 @@ struct GnCascadesParams {
     float adapted_near GN_DEFAULT(0.0f);  ///< metres; 0: each cascade spans a ratio of four
     float distance GN_DEFAULT(0.0f);      ///< metres to the end of the last cascade; 0: as far as the scene reaches
     int fit GN_DEFAULT(GN_FIT_STABLE);
+    int snap GN_DEFAULT(1);  ///< stable windows move by whole texels
     int transition GN_DEFAULT(GN_TRANSITION_BLEND);
     float width GN_DEFAULT(0.1f);  ///< of the transition, as a share of the nearer cascade
     int select GN_DEFAULT(GN_SELECT_DISTANCE);

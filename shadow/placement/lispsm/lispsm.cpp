@@ -8,38 +8,11 @@
 
 #include "shadow/placement/warp.h"
 
-#include <algorithm>
-
 namespace gn {
 namespace {
 
-/// The rectangle turns to the unwarped map's as the warp fades, so that the two meet.
-warp::Warp warp_of(const warp::Plane2& plane, double eta) {
-    const double fade = std::clamp((-0.2 - eta) / 0.8, 0.0, 1.0);
-    return warp::make_warp(plane, warp::strength_of(eta, plane.near, plane.far, plane.length), fade * plane.turn);
-}
-
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
-    const auto params = recipe.of<GnLispsmParams>("lispsm");
-    const double full = (1 + warp::falloff(plane.angle, plane.half_field)) * (1 + static_cast<double>(params.eta));
-    if (full <= 0) {
-        return plane.fitted;
-    }
-
-    // Take the full warp where it does no harm; else the strongest that does none, by bisection.
-    const double limit = 1.001 * warp::worst_error(plane, warp_of(plane, -1));
-    warp::Warp best = warp_of(plane, full - 1);
-    if (warp::worst_error(plane, best) <= limit) {
-        return warp::view_of(plane, best);
-    }
-    double low = 0;
-    double high = full;
-    for (int step = 0; step < 20; ++step) {
-        const double middle = 0.5 * (low + high);
-        const warp::Warp tried = warp_of(plane, middle - 1);
-        (warp::worst_error(plane, tried) <= limit ? low : high) = middle;
-    }
-    return low <= 1e-5 ? plane.fitted : warp::view_of(plane, warp_of(plane, low - 1));
+    return warp::even_view(plane, static_cast<double>(recipe.of<GnLispsmParams>("lispsm").eta));
 }
 
 LightViews place_lispsm(const FrameInput& input, const Recipe& recipe) {
