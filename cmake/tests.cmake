@@ -72,5 +72,6 @@ if(NOT GNOMON_SANITIZE)
 endif()
 
 # Ratios for docs/performance.md; run by hand, never by the tests.
-add_executable(performance_ratios EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/tests/performance/ratios.cpp)
+file(GLOB performance_sources CONFIGURE_DEPENDS tests/performance/*.cpp)
+add_executable(performance_ratios EXCLUDE_FROM_ALL ${performance_sources})
 target_link_libraries(performance_ratios PRIVATE gn_shadow gn_options)

@@ -30,28 +30,29 @@ PoissonSet poisson_disc(int count, unsigned seed) {
             misses = 0;
         }
     }
-
-    // Spread the order: probing the first taps alone must see the whole disc. Each next point is the one farthest from
-    // those before it.
-    for (std::size_t i = 1; i < set.points.size(); ++i) {
-        const auto gap = [&](vec2 p) {
-            float nearest = 4;
-            for (std::size_t j = 0; j < i; ++j) {
-                nearest = std::min(nearest, glm::distance(p, set.points[j]));
-            }
-            return nearest;
-        };
-        const auto best = std::max_element(set.points.begin() + static_cast<std::ptrdiff_t>(i), set.points.end(),
-                                           [&](vec2 a, vec2 b) { return gap(a) < gap(b); });
-        std::iter_swap(set.points.begin() + static_cast<std::ptrdiff_t>(i), best);
-    }
+    spread(set.points);
     return set;
 }
 
-std::string glsl_array(const PoissonSet& set, const std::string& name) {
-    std::string text = fmt::format("const vec2 {}[{}] = vec2[](", name, set.points.size());
-    for (std::size_t i = 0; i < set.points.size(); ++i) {
-        text += fmt::format("{}vec2({:.8f}, {:.8f})", i == 0 ? "" : ", ", set.points[i].x, set.points[i].y);
+void spread(std::span<vec2> points) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const auto gap = [&](vec2 p) {
+            float nearest = 4;
+            for (const vec2 before : points.first(i)) {
+                nearest = std::min(nearest, glm::distance(p, before));
+            }
+            return nearest;
+        };
+        const auto rest = points.subspan(i);
+        std::iter_swap(rest.begin(),
+                       std::max_element(rest.begin(), rest.end(), [&](vec2 a, vec2 b) { return gap(a) < gap(b); }));
+    }
+}
+
+std::string glsl_array(std::span<const vec2> points, const std::string& name) {
+    std::string text = fmt::format("const vec2 {}[{}] = vec2[](", name, points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        text += fmt::format("{}vec2({:.8f}, {:.8f})", i == 0 ? "" : ", ", points[i].x, points[i].y);
     }
     return text + ");\n";
 }

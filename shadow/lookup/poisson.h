@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,10 @@ struct PoissonSet {
 };
 PoissonSet poisson_disc(int count, unsigned seed);
 
-/// The set as a GLSL constant array `name`.
-std::string glsl_array(const PoissonSet& set, const std::string& name);
+/// Orders points so that any first few see the whole disc: each next one is the farthest from those before it.
+void spread(std::span<vec2> points);
+
+/// Points as a GLSL constant array `name`.
+std::string glsl_array(std::span<const vec2> points, const std::string& name);
 
 }  // namespace gn

@@ -3,23 +3,42 @@
 #ifndef GN_TESTS_PERFORMANCE_FETCH_GLSL
 #define GN_TESTS_PERFORMANCE_FETCH_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/lookup/pcf/pcf.glsl"
 
 // The texel that `hard` compares with.
 float gn_fetch_one_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
     return texelFetch(map, ivec3(ivec2(floor(projected.uv_ts / projected.texel_ts)), projected.layer), 0).r;
 }
 
-// The texels that `pcf` with kernel=3x3 compares with: four gathers.
-float gn_fetch_grid_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
-    vec2 first = floor(projected.uv_ts / projected.texel_ts) - 1.0;
+// The texels that a grid kernel of `pcf` compares with: one gather for four.
+float gn_fetch_gathers_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
+                                  GnPcfParams params) {
+    vec2 t = projected.uv_ts / projected.texel_ts;
+    ivec2 first = ivec2(gn_pcf_first(GN_PCF_KERNEL, GN_PCF_SIZE, t.x), gn_pcf_first(GN_PCF_KERNEL, GN_PCF_SIZE, t.y));
     vec4 sum = vec4(0.0);
-    for (int y = 0; y < 4; y += 2) {
-        for (int x = 0; x < 4; x += 2) {
-            sum += textureGather(map, vec3((first + vec2(x, y) + 1.0) * projected.texel_ts, projected.layer));
+    for (int y = 0; y < GN_PCF_FOOTPRINT; y += 2) {
+        for (int x = 0; x < GN_PCF_FOOTPRINT; x += 2) {
+            sum += textureGather(map, vec3(vec2(first + ivec2(x, y) + 1) * projected.texel_ts, projected.layer));
         }
     }
-    return dot(sum, vec4(0.0625));
+    return dot(sum, vec4(1.0 / float(GN_PCF_FOOTPRINT * GN_PCF_FOOTPRINT)));
+}
+
+// The texels that a disc kernel of `pcf` compares with, at the same places.
+float gn_fetch_taps_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
+                               GnPcfParams params) {
+    vec2 radius_ts = vec2(params.radius * projected.texel_ts);
+    float angle = GN_PCF_KERNEL == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
+    vec2 turn = vec2(cos(angle), sin(angle));
+    vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
+    float sum = 0.0;
+    for (int i = 0; i < GN_PCF_TAPS; ++i) {
+        vec2 p = GN_PCF_POINT(i);
+        vec2 tap_ts = projected.uv_ts + radius_ts * vec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y);
+        tap_ts = clamp(tap_ts, projected.bounds_ts.xy, last_ts);
+        sum += texelFetch(map, ivec3(ivec2(floor(tap_ts / projected.texel_ts)), projected.layer), 0).r;
+    }
+    return sum / float(GN_PCF_TAPS);
 }
 
 #endif

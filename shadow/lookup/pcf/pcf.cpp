@@ -26,6 +26,19 @@ Guard guard(const Recipe& recipe) {
                                    : Guard{.texels = params.radius + 1};
 }
 
+/// The taps of a disc kernel on the unit disc, before it is turned.
+std::vector<vec2> disc_of(const GnPcfParams& params) {
+    if (params.kernel != GN_PCF_VOGEL) {
+        return poisson_disc(params.taps, static_cast<unsigned>(params.seed)).points;
+    }
+    std::vector<vec2> points;
+    for (int i = 0; i < params.taps; ++i) {
+        points.push_back(glsl::gn_pcf_vogel(i, params.taps, 0));
+    }
+    spread(points);
+    return points;
+}
+
 /// Fixes the kernel and the loops' counts, and brings the generated set of taps.
 std::string prologue(const Recipe& recipe) {
     const auto params = recipe.of<GnPcfParams>("pcf");
@@ -36,11 +49,9 @@ std::string prologue(const Recipe& recipe) {
         text += fmt::format("#define GN_PCF_FOOTPRINT {}\n", glsl::gn_pcf_footprint(params.kernel, size));
         return text;
     }
-    text += fmt::format("#define GN_PCF_TAPS {}\n", params.taps);
-    if (params.kernel != GN_PCF_VOGEL) {
-        text += glsl_array(poisson_disc(params.taps, static_cast<unsigned>(params.seed)), "gn_pcf_points");
-        text += "#define GN_PCF_POINT(i) gn_pcf_points[i]\n";
-    }
+    text += fmt::format("#define GN_PCF_TAPS {}\n#define GN_PCF_EARLY_OUT {}\n", params.taps, params.early_out != 0);
+    text += glsl_array(disc_of(params), "gn_pcf_points");
+    text += "#define GN_PCF_POINT(i) gn_pcf_points[i]\n";
     return text;
 }
 

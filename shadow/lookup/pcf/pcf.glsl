@@ -78,7 +78,7 @@ GN_FN float gn_pcf_angle(vec2 p_ss) {
 }  // namespace gn::glsl
 #else
 
-// The host may define GN_PCF_POINT(i): tap i of a generated Poisson set on the unit disc. Without it the spiral serves.
+// The host may define GN_PCF_POINT(i): tap i of a set on the unit disc, made beforehand. Without it the spiral serves.
 #ifndef GN_PCF_POINT
 #define GN_PCF_POINT(i) gn_pcf_vogel(i, params.taps, 0.0)
 #endif
@@ -96,9 +96,9 @@ GN_FN float gn_pcf_angle(vec2 p_ss) {
 #define GN_PCF_SIZE gn_pcf_size(params.kernel, params.size)
 #endif
 
-float gn_pcf_lit(GnProjected projected, GnBias bias, vec2 centre_ts, float occluder) {
-    return gn_depth_at(projected, centre_ts, bias) <= occluder ? 1.0 : 0.0;
-}
+#ifndef GN_PCF_EARLY_OUT
+#define GN_PCF_EARLY_OUT (params.early_out != 0)
+#endif
 
 float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
     return params.kernel == GN_PCF_GAUSSIAN ? gn_pcf_gaussian(params.size, t, i)
@@ -129,22 +129,36 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
     return sum / total;
 }
 
-// One tap of a disc kernel: the texel it falls into, compared at that texel's centre.
-float gn_pcf_tap(GnProjected projected, GnBias bias, sampler2DArray map, vec2 tap_ts) {
-    tap_ts = clamp(tap_ts, projected.bounds_ts.xy, projected.bounds_ts.zw - 0.5 * projected.texel_ts);
-    ivec2 texel = ivec2(floor(tap_ts / projected.texel_ts));
-    float occluder = texelFetch(map, ivec3(texel, projected.layer), 0).r;
-    return gn_pcf_lit(projected, bias, (vec2(texel) + 0.5) * projected.texel_ts, occluder);
+// Four taps of a disc kernel: the texels that they fall into, compared at the texels' centres.
+vec4 gn_pcf_taps(GnProjected projected, GnBias bias, sampler2DArray map, vec4 u_ts, vec4 v_ts) {
+    vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
+    vec4 u = floor(clamp(u_ts, projected.bounds_ts.x, last_ts.x) / projected.texel_ts);
+    vec4 v = floor(clamp(v_ts, projected.bounds_ts.y, last_ts.y) / projected.texel_ts);
+    vec4 occluder;
+    for (int k = 0; k < 4; ++k) {
+        occluder[k] = texelFetch(map, ivec3(u[k], v[k], projected.layer), 0).r;
+    }
+    return vec4(gn_lit_at(projected, (u + 0.5) * projected.texel_ts, (v + 0.5) * projected.texel_ts, occluder, bias));
 }
 
-vec2 gn_pcf_disc(GnPcfParams params, int i, float angle) {
-    if (params.kernel == GN_PCF_VOGEL) {
-        return gn_pcf_vogel(i, params.taps, angle);
+// The sum of taps first to end - 1; `turn` is the cosine and sine of the set's rotation.
+float gn_pcf_disc_sum(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params, vec2 radius_ts,
+                      vec2 turn, int first, int end) {
+    float sum = 0.0;
+    for (int i = first; i < end; i += 4) {
+        vec4 x;
+        vec4 y;
+        for (int k = 0; k < 4; ++k) {
+            vec2 p = GN_PCF_POINT(min(i + k, GN_PCF_TAPS - 1));
+            x[k] = p.x;
+            y[k] = p.y;
+        }
+        vec4 u_ts = projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
+        vec4 v_ts = projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
+        vec4 counted = vec4(lessThan(i + ivec4(0, 1, 2, 3), ivec4(end)));
+        sum += dot(counted, gn_pcf_taps(projected, bias, map, u_ts, v_ts));
     }
-    vec2 p = GN_PCF_POINT(i);
-    float c = cos(angle);
-    float s = sin(angle);
-    return params.kernel == GN_PCF_ROTATED_POISSON ? vec2(c * p.x - s * p.y, s * p.x + c * p.y) : p;
+    return sum;
 }
 
 float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
@@ -153,20 +167,18 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
         radius_ts = gn_texels(projected, params.radius_world) * projected.texel_ts;
     }
     float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
+    vec2 turn = vec2(cos(angle), sin(angle));
+    if (!GN_PCF_EARLY_OUT || GN_PCF_TAPS <= 8) {
+        return gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 0, GN_PCF_TAPS) / float(GN_PCF_TAPS);
+    }
 
     // Two steps: where the first taps agree, the rest would. (Uralsky's early out, [EASW09] 4.2)
-    int probe = params.early_out != 0 ? min(8, GN_PCF_TAPS) : GN_PCF_TAPS;
-    float sum = 0.0;
-    int i = 0;
-    for (; i < probe; ++i) {
-        sum += gn_pcf_tap(projected, bias, map, projected.uv_ts + radius_ts * gn_pcf_disc(params, i, angle));
+    float probed = gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 0, 8);
+    if (probed == 0.0 || probed == 8.0) {
+        return probed / 8.0;
     }
-    if (i < GN_PCF_TAPS && sum > 0.0 && sum < float(probe)) {
-        for (; i < GN_PCF_TAPS; ++i) {
-            sum += gn_pcf_tap(projected, bias, map, projected.uv_ts + radius_ts * gn_pcf_disc(params, i, angle));
-        }
-    }
-    return sum / float(i);
+    float rest = gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 8, GN_PCF_TAPS);
+    return (probed + rest) / float(GN_PCF_TAPS);
 }
 
 float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,

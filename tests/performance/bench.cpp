@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "tests/performance/bench.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace gn::performance {
+namespace {
+
+constexpr double never = 1e300;
+
+bool named(const std::vector<std::string>& names, const PassTime& pass) {
+    return names.empty() ? pass.group == "shadow" : std::find(names.begin(), names.end(), pass.name) != names.end();
+}
+
+}  // namespace
+
+Bench::Bench() : device_(Device::create()) {}
+
+SceneGpu& Bench::scene(const std::string& name) {
+    std::unique_ptr<Kept>& kept = scenes_[name];
+    if (kept == nullptr) {
+        kept = std::make_unique<Kept>();
+        kept->scene = load_scene(name);
+        kept->gpu = upload_scene(*device_, kept->scene);
+    }
+    return kept->gpu;
+}
+
+void Bench::print_head() const {
+    std::printf("Device: %s (%s)\n", device_->info().name.c_str(), device_->info().driver.c_str());
+}
+
+Timed passes(Bench& bench, std::string scene, Recipe recipe, std::vector<std::string> names, int light) {
+    return [&bench, scene = std::move(scene), recipe = std::move(recipe), names = std::move(names), light] {
+        SceneGpu& gpu = bench.scene(scene);
+        const FrameResult frame =
+            render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe,
+                         {.width = width, .height = height, .repeat = repeats, .only_light = light, .picture = false});
+        double least = never;
+        for (std::size_t run = 0; run < static_cast<std::size_t>(repeats); ++run) {
+            double ms = 0;
+            for (std::size_t pass = 0; pass < frame.statistics.passes.size(); ++pass) {
+                ms += named(names, frame.statistics.passes[pass]) ? frame.pass_ms[pass][run] : 0;
+            }
+            least = std::min(least, ms);
+        }
+        return least;
+    };
+}
+
+Timed graph_pass(Bench& bench, std::function<void(FrameGraph&)> build, std::string name) {
+    return [&bench, build = std::move(build), name = std::move(name)] {
+        FrameGraph graph(bench.device());
+        build(graph);
+        graph.execute(false);
+        double least = never;
+        for (int run = 0; run < repeats; ++run) {
+            graph.execute(true);
+            for (const PassTime& pass : graph.statistics().passes) {
+                least = pass.name == name ? std::min(least, pass.ms) : least;
+            }
+        }
+        return least;
+    };
+}
+
+void print_title(const char* title) {
+    std::printf("\n| %s | ratio |\n| --- | ---: |\n", title);
+}
+
+void print_ratio(const std::string& what, const Timed& a, const Timed& b, double copies) {
+    double least_a = never;
+    double least_b = never;
+    for (int round = 0; round < rounds; ++round) {
+        least_a = std::min(least_a, a());
+        least_b = std::min(least_b, b());
+    }
+    std::printf("| %s | %.2f |\n", what.c_str(), least_a / (copies * least_b));
+    std::fflush(stdout);
+}
+
+}  // namespace gn::performance

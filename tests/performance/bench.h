@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What the groups of ratios share: a device, scenes kept on it, what is timed, and the rows they print.
+#pragma once
+
+#include "shadow/frame.h"
+
+#include <map>
+#include <memory>
+
+namespace gn::performance {
+
+inline constexpr uint width = 960, height = 540;
+/// Both sides of a ratio are run this often in turns, so that what else the machine does meets both.
+inline constexpr int rounds = 6, repeats = 4;
+
+class Bench {
+  public:
+    Bench();
+    Device& device() { return *device_; }
+    SceneGpu& scene(const std::string& name);
+    void print_head() const;
+
+  private:
+    struct Kept {
+        Scene scene;
+        SceneGpu gpu;
+    };
+    std::unique_ptr<Device> device_;
+    std::map<std::string, std::unique_ptr<Kept>> scenes_;
+};
+
+/// What is timed: runs it `repeats` times and returns the least time, ms.
+using Timed = std::function<double()>;
+
+/// Passes of these names of one light's shadow from the scene's first camera; without names all of the shadow's passes.
+Timed passes(Bench& bench, std::string scene, Recipe recipe, std::vector<std::string> names = {}, int light = 0);
+/// A graph of one's own; `build` keeps what it needs alive.
+Timed graph_pass(Bench& bench, std::function<void(FrameGraph&)> build, std::string name);
+
+void print_title(const char* title);
+/// The least time of `a` over the least of `b`, taken in turns; `copies` counts b more than once.
+void print_ratio(const std::string& what, const Timed& a, const Timed& b, double copies = 1);
+
+/// The groups, each in a file of its own name.
+void lookups(Bench& bench);
+void placements(Bench& bench);
+void filters(Bench& bench);
+
+}  // namespace gn::performance
