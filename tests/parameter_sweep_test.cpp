@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every parameter of every part that a shipped recipe uses, at both ends of its range (choices: every one), on one small
-// picture: visibility stays a number within [0,1], and what is refused says why.
+// Every parameter of every part that a shipped recipe uses, at both ends of its range (choices: every one) and under every
+// choice of the part's other rows, on one small picture: visibility stays a number within [0,1].
 #include "tests/rig.h"
 
 #include <algorithm>
@@ -73,16 +73,51 @@ bool expect_sane(LitScene& lit, const Recipe& recipe) {
     return true;
 }
 
-/// The texts of a row that no recipe has tried yet. A placement's or a map's rows need trying once, whichever recipe
-/// uses them; a lookup's with every map.
-std::vector<std::string> untried(const Recipe& recipe, const Part& part, const ParamRow& row) {
+using Settings = std::vector<std::pair<std::string_view, std::string>>;
+
+/// What is tried of a part: every end of every row, and every end under every choice of another row, which may be what
+/// makes the row count (the taps of a disc, the radius of a footprint).
+std::vector<Settings> settings_of(const Part& part) {
+    std::vector<Settings> list;
+    for (const ParamRow& row : part.params.rows) {
+        for (const std::string& end : ends_of(row)) {
+            list.push_back({{row.name, end}});
+            for (const ParamRow& other : part.params.rows) {
+                for (const std::string_view choice : other.choices) {
+                    if (other.name != row.name) {
+                        list.push_back({{other.name, std::string(choice)}, {row.name, end}});
+                    }
+                }
+            }
+        }
+    }
+    return list;
+}
+
+/// Whether no recipe has tried this yet. A placement's or a map's rows need trying once, whichever recipe uses them; a
+/// lookup's with every map.
+bool untried(const Recipe& recipe, const Part& part, const ParamBlock& block) {
     static std::set<std::string> tried;
-    std::vector<std::string> values = ends_of(row);
-    const std::string_view map = part.stage == Stage::lookup ? recipe.map->id : "";
-    std::erase_if(values, [&](const std::string& value) {
-        return !tried.insert(fmt::format("{} {} {} {}", map, part.id, row.name, value)).second;
-    });
-    return values;
+    std::string key = fmt::format("{} {}", part.stage == Stage::lookup ? recipe.map->id : "", part.id);
+    for (const ParamRow& row : part.params.rows) {
+        key += fmt::format(" {}", block.get(row.name));
+    }
+    return tried.insert(key).second;
+}
+
+TEST(ParameterSweepCoverage, EveryFilterIsInAShippedRecipe) {
+    std::set<std::string_view> used;
+    for (const std::string& name : recipe_names()) {
+        const Recipe recipe = load_recipe(name);
+        for (const Part* part : {recipe.map, recipe.lookup, recipe.visibility}) {
+            used.insert(part != nullptr ? part->id : "");
+        }
+    }
+    for (const Part* part : all_parts()) {
+        if (part->stage == Stage::map || part->stage == Stage::lookup || part->stage == Stage::visibility) {
+            EXPECT_TRUE(used.contains(part->id)) << part->id;
+        }
+    }
 }
 
 TEST_P(ParameterSweep, StaysInRangeAtBothEnds) {
@@ -92,11 +127,16 @@ TEST_P(ParameterSweep, StaysInRangeAtBothEnds) {
     LitScene& lit = expect_sane(under_sun(), shipped) ? under_sun() : under_lamp();
     ASSERT_TRUE(expect_sane(lit, shipped)) << "refused under the sun and under a lamp";
     for (const Part* part : parts_of(shipped, lit.scene)) {
-        for (const ParamRow& row : part->params.rows) {
-            for (const std::string& value : untried(shipped, *part, row)) {
-                SCOPED_TRACE(fmt::format("-r {},resolution=64,{}.{}={}", GetParam(), part->id, row.name, value));
-                Recipe recipe = shipped;
-                recipe.params.find(part->id)->second.set(row.name, value, "the sweep");
+        for (const Settings& settings : settings_of(*part)) {
+            Recipe recipe = shipped;
+            std::string text = fmt::format("-r {},resolution=64", GetParam());
+            ParamBlock& block = recipe.params.find(part->id)->second;
+            for (const auto& [name, value] : settings) {
+                block.set(name, value, "the sweep");
+                text += fmt::format(",{}.{}={}", part->id, name, value);
+            }
+            if (untried(shipped, *part, block)) {
+                SCOPED_TRACE(text);
                 expect_sane(lit, recipe);
             }
         }
