@@ -17,6 +17,9 @@ struct Interval {
 /// receivers. The last cascade also serves what lies beyond, as far as its map holds it.
 Interval range_of(const FrameInput& input, const GnCascadesParams& params);
 
+/// Of stable cascades: what can be seen within `range`, however the camera turns and moves by a little.
+Interval stable_range(const FrameInput& input, const GnCascadesParams& params, Interval range);
+
 /// The slice of each cascade: from its split backwards by the band of the transition before it.
 std::vector<Interval> slices_of(const GnCascadesParams& params, Interval range);
 
@@ -25,10 +28,24 @@ struct LightFrame {
     dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };
 LightFrame facing(const Camera& camera, const GnLight& light);
+/// The same, turned about the light by an angle in radians.
+LightFrame turned(const LightFrame& frame, double angle);
 
 /// The bounding box in light space of a slice's potential receivers.
 GnLightView plain_view(const ConvexBody& body, const LightFrame& frame, int resolution, Guard guard);
 
+/// A matrix's row, of the four numbers that one clip coordinate is made of.
+inline void set_row(mat4& m, int row, dvec4 values) {
+    for (int column = 0; column < 4; ++column) {
+        m[column][row] = static_cast<float>(values[column]);
+    }
+}
+inline dvec4 row_of(const mat4& m, int row) {
+    return {m[0][row], m[1][row], m[2][row], m[3][row]};
+}
+
+/// Completes an orthographic view whose x and y rows are set.
+void complete(GnLightView& view, const GnLight& light, int resolution, Interval depth);
 /// Sets the depth axis of an orthographic view, metres along the light.
 void set_depth_range(GnLightView& view, const GnLight& light, Interval depth);
 /// Of the points of a body along a direction.

@@ -8,6 +8,8 @@
 
 #define GN_SDSM_BINS 256
 #define GN_SDSM_ROWS 16
+#define GN_SDSM_TURNS 6                       // rectangles that are tried, over a right angle
+#define GN_SDSM_AXES (2 * GN_SDSM_TURNS + 1)  // directions of bounds: around the light's plane, then along the light
 
 struct GnSdsmConstants {
     GnLight light;
@@ -28,10 +30,16 @@ struct GnSdsmConstants {
 struct GnSdsmReduction {
     uint nearest;
     uint farthest;
-    uint bins[GN_SDSM_BINS];            ///< samples by the logarithm of their distance
-    uint lowest[3 * GN_CASCADES_MOST];  ///< light space bounds, three a cascade, relative to the eye
-    uint highest[3 * GN_CASCADES_MOST];
+    uint bins[GN_SDSM_BINS];                       ///< samples by the logarithm of their distance
+    uint lowest[GN_SDSM_AXES * GN_CASCADES_MOST];  ///< bounds of each cascade's samples, relative to the eye
+    uint highest[GN_SDSM_AXES * GN_CASCADES_MOST];
     float ends[GN_CASCADES_MOST + 1];  ///< of the slices, near first
 };
+
+/// Direction `axis` in the light's plane, in the axes of the light's frame.
+GN_FN vec2 gn_sdsm_axis(int axis) {
+    float angle = float(axis) * (1.57079633f / float(GN_SDSM_TURNS));
+    return vec2(cos(angle), sin(angle));
+}
 
 #endif
