@@ -55,6 +55,9 @@ ParamTable rows() {
             GN_PARAM(GnMsmParams, moment_bias, real, 0, 0.1, "",
                      "Share of a broad distribution mixed in against rounding: less noise, more bleeding."),
             samples_row(offsetof(GnMsmParams, samples)),
+            GN_PARAM(GnMsmParams, ramp, real, 0, 2, "",
+                     "Moves receivers towards the light by this share of what their plane rises under half the kernel: "
+                     "less acne on slopes, softer contacts there."),
             GN_PARAM(GnMsmParams, depth_bias, real, 0, 10, "m",
                      "Moves receivers towards the light: less acne, which rounding causes, and softer contacts."),
             bleeding_row(offsetof(GnMsmParams, bleeding)),

@@ -108,10 +108,18 @@ GN_FN float gn_msm_visible(vec4 stored, float depth, GnMsmParams params) {
 }  // namespace gn::glsl
 #else
 
+// What the receiver's plane rises, in depth, from the middle of the blurred and filtered kernel to its corner.
+float gn_msm_ramp(GnProjected projected, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams params) {
+    float blur = params.prefilter.blur == GN_BLUR_NONE ? 0.5 : float(params.prefilter.radius) + 0.5;
+    vec2 half_ts = max(0.5 * (abs(ddx_ts) + abs(ddy_ts)), vec2(blur * projected.texel_ts));
+    return dot(abs(projected.plane_slope), half_ts);
+}
+
 float gn_msm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
                         GnMsmParams params) {
     vec4 stored = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
-    return gn_msm_visible(stored, projected.depth - params.depth_bias / projected.metres_per_depth, params);
+    float bias = params.ramp * gn_msm_ramp(projected, ddx_ts, ddy_ts, params);
+    return gn_msm_visible(stored, projected.depth - bias - params.depth_bias / projected.metres_per_depth, params);
 }
 
 #endif

@@ -16,7 +16,8 @@ struct GnMsmParams {
     float moment_bias GN_DEFAULT(6.0e-5f);
     int samples GN_DEFAULT(1);
     GnPrefilterParams prefilter;
-    float depth_bias GN_DEFAULT(0.02f);
+    float ramp GN_DEFAULT(0.1f);
+    float depth_bias GN_DEFAULT(0.0f);
     float bleeding GN_DEFAULT(0.05f);
 };
 
