@@ -141,7 +141,7 @@ TEST(List, HasWhatIsPromised) {
         EXPECT_TRUE(has("scenes", scene)) << scene;
     }
     for (const char* metric :
-         {"rmse", "mae", "max", "mismatch", "leak", "acne", "penumbra", "edge", "luma_rms", "flip", "against"}) {
+         {"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow", "penumbra", "edge", "luma_rms", "flip", "against"}) {
         EXPECT_TRUE(has("metrics", metric)) << metric;
     }
 }

@@ -186,6 +186,28 @@ TEST(Compare, AgainstAnUnknownRecipeIsOneSentence) {
     }
 }
 
+TEST(Compare, SelfShadowIsToldFromTheRimsOfShadows) {
+    const std::string no_bias = "bias.constant=0,bias.normal=0,bias.receiver_plane=0,bias.cone=0";
+    const auto errors = [](const std::string& scene, const std::string& recipe) {
+        const CommandResult result = run_gnomon(
+            {"compare", scene, "-r", recipe, "--size", "240x135", "--samples", "1", "--repeat", "1", "--json", "-"});
+        EXPECT_EQ(result.status, 0) << result.err;
+        return json::parse(result.out).at("runs").at(0).at("error");
+    };
+    // Half of an unbiased plane shadows itself, and nothing else is there; the default bias leaves nothing.
+    const json plane = errors("tilted:angle=60", "hard,resolution=256," + no_bias);
+    EXPECT_GT(plane.at("self_shadow").get<double>(), 0.4);
+    EXPECT_EQ(plane.at("self_shadow"), plane.at("acne"));
+    EXPECT_LT(errors("tilted:angle=60", "hard,resolution=256").at("self_shadow").get<double>(), 1e-3);
+    // Coarse texels put shadow on the lit side of a box's edges: false, but none of it its own.
+    const json box = errors("contact", "pcf,resolution=256");
+    EXPECT_GT(box.at("acne").get<double>(), 0.004);
+    EXPECT_LT(box.at("self_shadow").get<double>(), 0.1 * box.at("acne").get<double>());
+    // Where no map is looked up nobody can say, nor where a filter spreads V over the screen.
+    EXPECT_TRUE(errors("contact", "volumes").at("self_shadow").is_null());
+    EXPECT_TRUE(errors("contact", "pcf-bilateral,resolution=256").at("self_shadow").is_null());
+}
+
 TEST(Compare, AnUnknownPathIsRefusedWithTheKnownOnes) {
     for (const auto& [scene, words] : {std::pair<std::string, Words>{"corridor", {"'stroll'", "walk"}},
                                        std::pair<std::string, Words>{"slab", {"no camera path"}}}) {

@@ -14,6 +14,8 @@
 #include "base/error.h"
 #include "reference/light_sample.h"
 #include "reference/occluders.h"
+#include "reference/rays.h"
+#include "reference/rims.h"
 #include "reference/sobol.h"
 
 #include <algorithm>
@@ -21,8 +23,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <mutex>
-#include <thread>
 
 namespace gn {
 namespace {
@@ -59,30 +59,6 @@ struct Plan {
 struct Estimate {
     double visibility = 0, standard_error = 0, irradiance = 0;
 };
-
-/// Where a ray towards the light ends: a little before its surface.
-float ray_end(const LightPoint& point, float largest_origin) {
-    if (!std::isfinite(point.distance)) {
-        return point.distance;
-    }
-    return point.distance - static_cast<float>(ulps_at(light_ulps, point.distance + largest_origin));
-}
-
-template <int Width>
-void aim(RTCRayNt<Width>& rays, int lane, vec3 origin_ws, const LightPoint& point) {
-    rays.org_x[lane] = origin_ws.x;
-    rays.org_y[lane] = origin_ws.y;
-    rays.org_z[lane] = origin_ws.z;
-    rays.dir_x[lane] = point.direction_ws.x;
-    rays.dir_y[lane] = point.direction_ws.y;
-    rays.dir_z[lane] = point.direction_ws.z;
-    rays.tnear[lane] = 0.0F;
-    rays.tfar[lane] = ray_end(point, static_cast<float>(largest(dvec3(origin_ws))));
-    rays.time[lane] = 0.0F;
-    rays.mask[lane] = ~0U;
-    rays.id[lane] = 0;
-    rays.flags[lane] = 0;
-}
 
 Estimate trace_single(const Occluders& occluders, const Seat& seat, const LightSampler& sampler, vec3 n_ws) {
     alignas(16) RTCRayNt<1> ray;
@@ -214,22 +190,6 @@ struct Job {
     }
 };
 
-/// Runs the job on this thread and as many others as asked for; only this one reports progress.
-void run(Job& job, int threads, const std::function<void(double)>& progress) {
-    const unsigned available = std::max(1U, std::thread::hardware_concurrency());
-    const unsigned count = threads > 0 ? static_cast<unsigned>(threads) : available;
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < std::min(count, 256U); ++i) {
-        others.emplace_back([&job] { job.work({}); });
-    }
-    try {
-        job.work(progress);
-    } catch (...) {
-        job.stop = true;
-        throw;
-    }
-}
-
 }  // namespace
 
 struct Truth::Impl {
@@ -250,7 +210,9 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
     result.counted.assign(position_ws.size(), 0);
     result.irradiance.assign(options.integral ? position_ws.size() : 0, 0.0F);
     Job job{impl_->occluders, position_ws, normal_ws, light, plan, options.integral, result};
-    run(job, options.threads, progress);
+    in_parallel(
+        options.threads, [&](bool first) { job.work(first ? progress : std::function<void(double)>{}); },
+        [&] { job.stop = true; });
     if (progress) {
         progress(1.0);
     }
@@ -264,6 +226,12 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
     result.mean_standard_error /= static_cast<double>(std::max<std::size_t>(counted, 1));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
+}
+
+std::vector<std::uint8_t> Truth::blocked_around(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
+                                                std::span<const Surroundings> around, const GnLight& light,
+                                                int threads) const {
+    return find_rims(impl_->occluders, position_ws, normal_ws, around, light, threads);
 }
 
 bool Truth::blocked(dvec3 p_ws, dvec3 q_ws) const {

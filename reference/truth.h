@@ -27,6 +27,12 @@ struct TruthResult {
     double seconds = 0;
 };
 
+/// What lies around a sample: the points p + s a + t b, s and t in [-1,1], each moved along its ray to the light onto the
+/// sample's tangent plane.
+struct Surroundings {
+    vec3 a_ws{0}, b_ws{0};  ///< metres, across the rays; both null: nothing is asked
+};
+
 /// Embree's acceleration structure over one scene; the scene must outlive it.
 class Truth {
   public:
@@ -38,6 +44,12 @@ class Truth {
     [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
                                     const GnLight& light, const TruthOptions& options,
                                     const std::function<void(double)>& progress = {}) const;
+    /// 1 where a part of the scene other than the sample's own surface hides the light's centre from some place around the
+    /// sample: the sample is beside a shadow, or in it. See reference/rims.h. threads as TruthOptions::threads.
+    [[nodiscard]] std::vector<std::uint8_t> blocked_around(std::span<const vec4> position_ws,
+                                                           std::span<const vec4> normal_ws,
+                                                           std::span<const Surroundings> around, const GnLight& light,
+                                                           int threads = 0) const;
     /// One exact question, for tests: is the segment (p, q) blocked?
     [[nodiscard]] bool blocked(dvec3 p_ws, dvec3 q_ws) const;
 

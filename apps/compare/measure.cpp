@@ -80,9 +80,29 @@ struct PictureNames {
     }
 };
 
+/// Which lit but darkened samples lie beside a shadow, within the kernel's reach; nothing where no map is looked up.
+std::vector<std::uint8_t> explained_acne(ViewSession& view, Bench& bench, const Recipe& recipe, const Image& technique,
+                                         std::size_t light) {
+    HiddenOptions options;
+    options.width = static_cast<uint>(technique.width);
+    options.height = static_cast<uint>(technique.height);
+    options.light = light;
+    const std::vector<KernelRegion> regions =
+        kernel_regions(bench.device(), view.gpu(bench), view.camera(), recipe, options);
+    const TruthResult& truth = view.truth(light);
+    std::vector<Surroundings> around(regions.size());
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        if (truth.visibility[i] >= 1 && technique.values[i] < 1) {
+            around[i] = {regions[i].a_ws, regions[i].b_ws};
+        }
+    }
+    return around.empty() ? std::vector<std::uint8_t>{} : view.beside_shadow(light, around);
+}
+
 /// Errors and error map of every light that is asked for; returns which of the scene's lights were served.
-std::vector<bool> measure_lights(RunResult& run, const ViewSession& view, const FrameResult& frame,
-                                 const FrameResult* against, const PictureNames& names) {
+std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench, const Recipe& recipe,
+                                 const FrameResult& frame, const PictureNames& names) {
+    const FrameResult* against = view.against(bench);
     SignedErrors combined;
     std::vector<Errors> errors;
     std::vector<bool> served(view.scene().lights.size(), false);
@@ -98,6 +118,10 @@ std::vector<bool> measure_lights(RunResult& run, const ViewSession& view, const 
             const TruthResult& truth = view.truth(l);
             light.errors =
                 visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
+            const std::vector<std::uint8_t> explained = explained_acne(view, bench, recipe, frame.visibility[l], l);
+            if (!explained.empty()) {
+                split_acne(light.errors, frame.visibility[l].values, truth.visibility, truth.counted, explained);
+            }
             if (against != nullptr && against->refused[l].empty()) {
                 hold_against(light.errors, frame.visibility[l].values, against->visibility[l].values, truth.counted);
             } else if (against != nullptr) {
@@ -221,7 +245,7 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     // Hold every light against the truth, then the pictures.
     const PictureNames names{options.folder, fmt::format("pictures/{}-{}-{}", slug(view.result.name),
                                                          slug(asked.recipe.name), run_key.substr(0, 8))};
-    const std::vector<bool> served = measure_lights(run, view, frame, view.against(bench), names);
+    const std::vector<bool> served = measure_lights(run, view, bench, asked.recipe, frame, names);
     if (std::find(served.begin(), served.end(), true) == served.end()) {
         run.status = "refused";
         run.reason = joined_reasons(run);

@@ -97,10 +97,18 @@ bool ViewSession::prepare(Bench& bench, const ResultCache& cache, Progress& prog
     if (!trace_lights(cache, progress) || !trace_path(bench, cache, progress)) {
         return false;
     }
-    tracer_.reset();
     account(cache, bench);
     ready_ = true;
     return true;
+}
+
+const Truth& ViewSession::tracer() {
+    return tracer_ ? *tracer_ : tracer_.emplace(*scene_);
+}
+
+std::vector<std::uint8_t> ViewSession::beside_shadow(std::size_t light, std::span<const Surroundings> around) {
+    return tracer().blocked_around(samples_.position_ws, samples_.normal_ws, around, scene_->lights[light].shape,
+                                   options_.threads);
 }
 
 TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
@@ -108,11 +116,7 @@ TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& sa
     const std::string key = cache.truth_key(key_, samples, light);
     std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height);
     if (!truth) {
-        // The acceleration structure is built only when something is not in the cache.
-        if (!tracer_) {
-            tracer_.emplace(*scene_);
-        }
-        truth = tracer_->trace(samples.position_ws, samples.normal_ws, scene_->lights[light].shape,
+        truth = tracer().trace(samples.position_ws, samples.normal_ws, scene_->lights[light].shape,
                                {.samples = options_.samples, .threads = options_.threads}, progress);
         cache.store(key, *truth, options_.size.width, options_.size.height);
     }

@@ -56,6 +56,9 @@ class ViewSession {
     /// Throws Error.
     const FrameResult* against(Bench& bench);
 
+    /// 1 where some place within a sample's surroundings is hidden from the light. Throws Error.
+    [[nodiscard]] std::vector<std::uint8_t> beside_shadow(std::size_t light, std::span<const Surroundings> around);
+
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& key() const { return key_; }
@@ -74,6 +77,8 @@ class ViewSession {
     void name_in(const ResultCache& cache);
 
   private:
+    /// Made when first asked for: where all is in the cache, nothing is traced.
+    const Truth& tracer();
     bool trace_lights(const ResultCache& cache, Progress& progress);
     bool trace_path(Bench& bench, const ResultCache& cache, Progress& progress);
     /// From the cache, or traced.
@@ -89,7 +94,7 @@ class ViewSession {
     std::string key_;
     std::optional<SceneGpu> gpu_;
     CpuSamples samples_;
-    std::optional<Truth> tracer_;  ///< made for the first light that is not in the cache
+    std::optional<Truth> tracer_;
     std::vector<std::optional<TruthResult>> truth_;
     const CameraPath* path_ = nullptr;
     std::vector<std::vector<PathTruth>> path_truth_;  ///< per frame and light

@@ -34,6 +34,23 @@ GN_FN float gn_bias_metres(GnReceiver receiver, GnLightView view, GnProjected mo
     return determinant != 0.0f ? length(step_ws) / abs(determinant) : 0.0f;
 }
 
+// The region across the rays that a kernel draws a receiver's V from: the parallelogram p + s a + t b, s and t in
+// [-1,1]. It holds the kernel with its bias.reach and reach_world, half a texel to the centre of the receiver's own, one
+// more for what the bias moves, and `pixels` times the pixel's own footprint.
+GN_FN void gn_kernel_region(GnReceiver receiver, GnLightView view, GnProjected projected, GnBias bias, float pixels,
+                            GN_OUT(vec3) a_ws, GN_OUT(vec3) b_ws) {
+    vec2 texels = max(vec2(bias.reach), gn_texels(projected, bias.reach_world)) + 1.5f;
+    vec2 half_ts = texels * projected.texel_ts;
+    half_ts.x += pixels * (abs(dot(projected.du_ws, receiver.ddx_ws)) + abs(dot(projected.du_ws, receiver.ddy_ws)));
+    half_ts.y += pixels * (abs(dot(projected.dv_ws, receiver.ddx_ws)) + abs(dot(projected.dv_ws, receiver.ddy_ws)));
+
+    // Steps across the rays that change one coordinate and keep the other.
+    vec3 ray_ws = gn_to_eye(view, receiver.p_ws);
+    float determinant = dot(projected.du_ws, cross(projected.dv_ws, ray_ws));
+    a_ws = cross(projected.dv_ws, ray_ws) * (half_ts.x / determinant);
+    b_ws = cross(ray_ws, projected.du_ws) * (half_ts.y / determinant);
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #endif

@@ -38,4 +38,14 @@ struct HiddenOptions {
 std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                                std::span<const std::string> names, const HiddenOptions& options);
 
+/// What a recipe's kernel draws the V of a sample from: the parallelogram p + s a + t b, s and t in [-1,1], across the rays
+/// to the light's eye; metres. Both null where no light view holds the sample.
+struct KernelRegion {
+    vec3 a_ws{0}, b_ws{0};
+};
+/// The regions of all view samples; nothing for recipes without a map, and for those that filter V on the screen. Throws
+/// Refusal where the recipe cannot serve the light.
+std::vector<KernelRegion> kernel_regions(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
+                                         const HiddenOptions& options);
+
 }  // namespace gn

@@ -4,6 +4,7 @@
 
 #include "shadow/lookup/show.glsl"
 #include "shadow/placement/cascades/cascades.glsl"
+#include "shadow/placement/receivers.h"
 #include "tests/rig.h"
 
 #include <algorithm>
@@ -63,6 +64,64 @@ TEST(Show, RefusesRecipesWithoutAMap) {
     const Scene scene = floor_below(5);
     for (const char* recipe : {"volumes", "none"}) {
         EXPECT_THROW(show(scene, recipe, {"view"}), Refusal) << recipe;
+    }
+}
+
+TEST(Show, KernelRegionsAreTheKernelsTexelsAcrossTheRays) {
+    // Over a level floor under a vertical sun a map of 256 texels covers the same square everywhere.
+    const test::ValidationGuard guard;
+    const Scene scene = floor_below(5);
+    SceneGpu gpu = upload_scene(device(), scene);
+    const auto regions = [&](const std::string& recipe) {
+        return kernel_regions(device(), gpu, scene.camera(""), load_recipe(recipe), {.width = 32, .height = 18});
+    };
+    const auto hard = regions("hard,placement=single,resolution=256").at(300);
+    const float texel = glm::length(hard.a_ws) / 1.5F;
+    EXPECT_NEAR(texel, 40.0F / 256, 0.1F * 40.0F / 256);
+    EXPECT_NEAR(glm::length(hard.b_ws), 1.5F * texel, 1e-4F * texel);
+    EXPECT_NEAR(glm::dot(hard.a_ws, hard.b_ws), 0, 1e-6F);
+    EXPECT_NEAR(hard.a_ws.y, 0, 1e-6F);
+    // A disc of 6 texels reaches 6 further, one of 2 m two metres; the wider map for its guard is taken from its texels.
+    const auto disc = regions("pcf,pcf.kernel=vogel,pcf.radius=6,placement=single,resolution=256").at(300);
+    EXPECT_NEAR(glm::length(disc.a_ws) / glm::length(hard.a_ws), 7.5F / 1.5F, 0.5F);
+    const auto metres = regions("pcf,pcf.kernel=vogel,pcf.radius_world=2,placement=single,resolution=256").at(300);
+    EXPECT_NEAR(glm::length(metres.a_ws), 2 + 1.5F * texel, 0.1F);
+    // A filtered fetch adds twice its pixel: 5 m above, 18 rows over one radian.
+    const auto pixel = regions("vsm,placement=single,resolution=256").at(300);
+    EXPECT_GT(glm::length(pixel.b_ws), 2 * 10 * std::tan(0.5F) / 18);
+    // Nothing to say without a map, or with a filter on the screen.
+    EXPECT_TRUE(regions("volumes").empty());
+    EXPECT_TRUE(regions("pcf-bilateral").empty());
+}
+
+TEST(Show, KernelRegionsStepByTexels) {
+    // A tilted receiver under a spot: each axis changes its own coordinate by the region's half side, and stays across.
+    GnLight spot;
+    spot.kind = GN_LIGHT_SPOT;
+    spot.position_ws = vec4(1, 6, 2, 1);
+    spot.direction_ws = vec4(glm::normalize(vec3(-0.2F, -1, 0.1F)), 0);
+    const GnLightView view =
+        square_perspective(vec3(spot.position_ws), vec3(spot.direction_ws), vec3(1, 0, 0), 0.7F, 0.1F, 20, 512);
+    glsl::GnReceiver receiver{};
+    receiver.p_ws = vec3(0.5F, 0.2F, 1.5F);
+    receiver.n_ws = glm::normalize(vec3(0.6F, 1, -0.3F));
+    receiver.ddx_ws = vec3(0.02F, -0.012F, 0);
+    GnBias bias{};
+    bias.reach = 2;
+    const glsl::GnProjected projected = glsl::gn_project(receiver, view, bias);
+    ASSERT_TRUE(projected.inside);
+    for (const float pixels : {0.0F, 2.0F}) {
+        vec3 a_ws, b_ws;
+        glsl::gn_kernel_region(receiver, view, projected, bias, pixels, a_ws, b_ws);
+        const vec3 ray_ws = glsl::gn_to_eye(view, receiver.p_ws);
+        const float u_ts = 3.5F / 512 + pixels * std::abs(glm::dot(projected.du_ws, receiver.ddx_ws));
+        const float v_ts = 3.5F / 512 + pixels * std::abs(glm::dot(projected.dv_ws, receiver.ddx_ws));
+        EXPECT_NEAR(glm::dot(projected.du_ws, a_ws), u_ts, 1e-6F);
+        EXPECT_NEAR(glm::dot(projected.dv_ws, b_ws), v_ts, 1e-6F);
+        for (const float zero : {glm::dot(projected.dv_ws, a_ws), glm::dot(projected.du_ws, b_ws),
+                                 glm::dot(ray_ws, a_ws), glm::dot(ray_ws, b_ws)}) {
+            EXPECT_NEAR(zero, 0, 1e-6F);
+        }
     }
 }
 

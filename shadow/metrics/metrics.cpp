@@ -50,13 +50,15 @@ std::optional<double> weighted_mean(std::span<const Errors> lights, std::optiona
 }  // namespace
 
 std::span<const MetricInfo> all_metrics() {
-    static constexpr std::array<MetricInfo, 13> metrics{{
+    static constexpr std::array<MetricInfo, 14> metrics{{
         {"rmse", "Root mean square of T - R.", &Errors::rmse},
         {"mae", "Mean of the absolute T - R.", &Errors::mae},
         {"max", "Largest absolute T - R.", &Errors::max},
         {"mismatch", "Fraction of samples where T and R differ by more than a half.", &Errors::mismatch},
         {"leak", "Mean of T where R is 0: light where there is none.", &Errors::leak},
         {"acne", "Mean of 1 - T where R is 1: shadow where there is none.", &Errors::acne},
+        {"self_shadow", "The part of acne that no edge of another surface within the kernel's reach explains.",
+         &Errors::self_shadow},
         {"penumbra", "Root mean square of T - R where R is between 0 and 1.", &Errors::penumbra},
         {"edge", "Fraction of samples within one pixel of a discontinuity of R.", &Errors::edge},
         {"luma_rms", "Root mean square difference of the pictures' luma, on the scale of 0 to 255.", &Errors::luma_rms},
@@ -112,6 +114,20 @@ Errors visibility_errors(std::span<const float> technique, std::span<const float
     return errors;
 }
 
+void split_acne(Errors& errors, std::span<const float> technique, std::span<const float> reference,
+                std::span<const std::uint8_t> counted, std::span<const std::uint8_t> beside_shadow) {
+    GN_CHECK_EQ(technique.size(), reference.size());
+    GN_CHECK_EQ(beside_shadow.size(), reference.size());
+    Sum lit;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        if (counted[i] != 0 && reference[i] >= 1.0F) {
+            const double dark = std::isfinite(technique[i]) ? 1.0 - static_cast<double>(technique[i]) : 1.0;
+            lit.add(beside_shadow[i] != 0 ? 0.0 : dark);
+        }
+    }
+    errors.self_shadow = lit.mean();
+}
+
 void hold_against(Errors& errors, std::span<const float> technique, std::span<const float> other,
                   std::span<const std::uint8_t> counted) {
     GN_CHECK_EQ(technique.size(), counted.size());
@@ -145,6 +161,7 @@ Errors pool(std::span<const Errors> lights) {
     pooled.mismatch = weighted_mean(lights, &Errors::mismatch, &Errors::samples, false);
     pooled.leak = weighted_mean(lights, &Errors::leak, &Errors::dark, false);
     pooled.acne = weighted_mean(lights, &Errors::acne, &Errors::lit, false);
+    pooled.self_shadow = weighted_mean(lights, &Errors::self_shadow, &Errors::lit, false);
     pooled.penumbra = weighted_mean(lights, &Errors::penumbra, &Errors::partial, true);
     pooled.edge = weighted_mean(lights, &Errors::edge, &Errors::samples, false);
     pooled.against = weighted_mean(lights, &Errors::against, &Errors::samples, true);

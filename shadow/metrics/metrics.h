@@ -15,8 +15,8 @@ namespace gn {
 /// Every figure; a value that has no samples is absent, never 0.
 struct Errors {
     std::size_t samples = 0;
-    std::optional<double> rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker, against,
-        against_mean;
+    std::optional<double> rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, luma_rms, flip, flicker,
+        against, against_mean;
     std::size_t dark = 0, lit = 0,
                 partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
 };
@@ -25,14 +25,18 @@ struct MetricInfo {
     std::string_view name, sentence;
     std::optional<double> Errors::*value;
 };
-/// In the order of the report: rmse, mae, max, mismatch, leak, acne, penumbra, edge, luma_rms, flip, flicker,
-/// against, against_mean.
+/// In the order of the report: rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, luma_rms, flip,
+/// flicker, against, against_mean.
 std::span<const MetricInfo> all_metrics();
 
 /// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a
 /// number counts as wholly wrong.
 Errors visibility_errors(std::span<const float> technique, std::span<const float> reference,
                          std::span<const std::uint8_t> counted, int width, int height);
+/// Fills `self_shadow`: the part of `acne` that no shadow nearby explains, over the same lit samples. `beside_shadow` has
+/// 1 where a shadow's edge lies within the technique's reach.
+void split_acne(Errors& errors, std::span<const float> technique, std::span<const float> reference,
+                std::span<const std::uint8_t> counted, std::span<const std::uint8_t> beside_shadow);
 /// The pixels within one pixel of a discontinuity of R: what `edge` counts; exact methods are judged outside it.
 /// 1 for a counted pixel when R spans at least one half over the counted pixels of its 3 x 3 neighbourhood.
 std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::span<const std::uint8_t> counted,

@@ -62,8 +62,9 @@ TEST(Metrics, NamesAreInOrder) {
         names.push_back(metric.name);
         EXPECT_FALSE(metric.sentence.empty());
     }
-    EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "penumbra",
-                                                    "edge", "luma_rms", "flip", "flicker", "against", "against_mean"}));
+    EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow",
+                                                    "penumbra", "edge", "luma_rms", "flip", "flicker", "against",
+                                                    "against_mean"}));
 }
 
 TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
@@ -80,6 +81,10 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     Errors b = visibility_errors(technique_b, reference_b, counted_b, 4, 1);
     hold_against(a, technique_a, other_a, counted_a);
     hold_against(b, technique_b, other_b, counted_b);
+    const Bytes beside_a{0, 0, 0, 0};
+    const Bytes beside_b{0, 1, 1, 0};
+    split_acne(a, technique_a, reference_a, counted_a, beside_a);
+    split_acne(b, technique_b, reference_b, counted_b, beside_b);
 
     Floats reference = reference_a;
     Floats technique = technique_a;
@@ -95,6 +100,9 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     other.insert(other.end(), other_b.begin(), other_b.end());
     Errors expected = visibility_errors(technique, reference, counted, 4, 3);
     hold_against(expected, technique, other, counted);
+    Bytes beside(8, 0);
+    beside.insert(beside.end(), beside_b.begin(), beside_b.end());
+    split_acne(expected, technique, reference, counted, beside);
 
     const std::vector<Errors> lights{a, b, Errors{}};
     const Errors pooled = pool(lights);
@@ -107,6 +115,26 @@ TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
     }
     EXPECT_EQ(pool({}).samples, 0U);
     EXPECT_FALSE(pool({}).rmse.has_value());
+}
+
+TEST(Metrics, SelfShadowIsTheAcneThatNoEdgeExplains) {
+    const Floats technique{0.5F, 0.25F, 1, 0, 0.5F, std::numeric_limits<float>::quiet_NaN()};
+    const Floats reference{1, 1, 1, 1, 0.5F, 1};
+    const Bytes counted{1, 1, 1, 0, 1, 1};
+    const auto split = [&](const Bytes& beside) {
+        Errors e = visibility_errors(technique, reference, counted, 6, 1);
+        split_acne(e, technique, reference, counted, beside);
+        return e;
+    };
+    // Four samples are lit and counted: 1/2, 3/4 and 1 of shadow, and none.
+    EXPECT_DOUBLE_EQ(split(Bytes(6, 0)).self_shadow.value(), (0.5 + 0.75 + 1) / 4);
+    EXPECT_DOUBLE_EQ(split(Bytes(6, 0)).self_shadow.value(), split(Bytes(6, 0)).acne.value());
+    EXPECT_DOUBLE_EQ(split({1, 0, 1, 0, 0, 0}).self_shadow.value(), (0.75 + 1) / 4);
+    EXPECT_DOUBLE_EQ(split(Bytes(6, 1)).self_shadow.value(), 0);
+    // Where nothing is lit there is nothing to say.
+    Errors none;
+    split_acne(none, Floats{1}, Floats{0}, Bytes{1}, Bytes{0});
+    EXPECT_FALSE(none.self_shadow.has_value());
 }
 
 TEST(Metrics, AgainstIsTheSignedAndTheRootMeanSquareDistance) {
