@@ -140,8 +140,8 @@ TEST(List, HasWhatIsPromised) {
          {"courtyard", "half-plane", "slab", "stack", "overlap", "tilted", "contact", "fence", "corridor", "duel"}) {
         EXPECT_TRUE(has("scenes", scene)) << scene;
     }
-    for (const char* metric :
-         {"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow", "penumbra", "edge", "luma_rms", "flip", "against"}) {
+    for (const char* metric : {"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow", "penumbra", "edge",
+                               "luma_rms", "flip", "against"}) {
         EXPECT_TRUE(has("metrics", metric)) << metric;
     }
 }
@@ -155,6 +155,7 @@ TEST(Show, EveryPartHasAPageThatNamesItsParameters) {
         expect_has(page.out, {part.at("title").get<std::string>()});
         expect_has(page.out, {"[" + part.at("citation").get<std::string>() + "]"});
         EXPECT_GT(page.out.size(), 600U) << id << " has no manual page beside its source";
+        EXPECT_EQ(page.out.find("!["), std::string::npos) << id << " shows a picture as markup";
         for (const json& parameter : part.at("parameters")) {
             expect_has(page.out, {id + "." + parameter.get<std::string>()});
         }

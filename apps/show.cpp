@@ -59,6 +59,24 @@ std::string users_of(const Part& part) {
     return list.empty() ? "none that names it" : list;
 }
 
+/// A page's pictures as their files' names: ![what](../../../docs/pictures/x.png) becomes docs/pictures/x.png.
+std::string with_plain_pictures(std::string text) {
+    for (std::size_t at = 0; (at = text.find("![", at)) != std::string::npos;) {
+        const std::size_t path = text.find("](", at);
+        const std::size_t end = text.find_first_of(")\n", path);
+        if (path == std::string::npos || end == std::string::npos || text[end] != ')') {
+            break;
+        }
+        std::string name = text.substr(path + 2, end - path - 2);
+        while (name.starts_with("../")) {
+            name.erase(0, 3);
+        }
+        text.replace(at, end + 1 - at, name);
+        at += name.size();
+    }
+    return text;
+}
+
 /// The part's page without the lines between its first two "---", which repeat what is printed above it.
 std::string page_of(const Part& part) {
     const std::string name = identifier(part.id);
@@ -68,7 +86,7 @@ std::string page_of(const Part& part) {
     const std::string text = stream.str();
     const std::size_t end = text.starts_with("---\n") ? text.find("\n---\n", 3) : std::string::npos;
     const std::size_t body = end == std::string::npos ? 0 : text.find_first_not_of('\n', end + 5);
-    return body == std::string::npos ? "" : text.substr(body);
+    return body == std::string::npos ? "" : with_plain_pictures(text.substr(body));
 }
 
 void show_part(const Part& part) {
