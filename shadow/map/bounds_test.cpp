@@ -12,7 +12,7 @@ namespace {
 
 /// The kernel is a box of five texels, read bilinearly, and the receiver one depth under the whole kernel.
 constexpr const char* kernel =
-    ",resolution=512,filtered.footprint=radius,filtered.radius=0,bias.receiver_plane=0,placement=";
+    ",resolution=512,filtered.footprint=radius,filtered.radius=0,bias.receiver_plane=0,bias.cone=0,placement=";
 
 /// Rounding of the fetch's fractions and of the moments, as far as the least variance does not cover it.
 constexpr float rounding = 5e-3F;
