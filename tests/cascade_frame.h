@@ -34,6 +34,7 @@ inline Scene with_hard_sun(const char* name) {
 struct Rendered {
     std::vector<float> visibility, map;
     std::vector<GnLightView> views;
+    std::vector<std::vector<std::uint32_t>> casters;
     glsl::GnPlacementData data{};
     CpuSamples samples;
 };
@@ -72,7 +73,7 @@ inline Rendered render(SceneGpu& gpu, const Camera& camera, const Camera& placed
         history->advance();
     }
 
-    Rendered result{.views = views.views};
+    Rendered result{.views = views.views, .casters = views.casters};
     copy_bytes(graph.download(visibility.image), result.visibility);
     for (std::uint32_t layer = 0; layer < views.layers; ++layer) {
         std::vector<float> texels;
