@@ -6,14 +6,15 @@
 #include "base/shared.h"
 
 struct GnBias {
-    float constant GN_DEFAULT(0.1f);        ///< texels towards the light
+    float constant GN_DEFAULT(0.5f);        ///< texels towards the light
     float constant_world GN_DEFAULT(0.0f);  ///< metres towards the light
     float slope GN_DEFAULT(0.0f);           ///< texels towards the light per unit of tan(angle of incidence)
     float slope_max GN_DEFAULT(16.0f);      ///< limit of that tangent
     float normal GN_DEFAULT(0.25f);         ///< texels along the normal, scaled by the sine of the angle of incidence
     float normal_world GN_DEFAULT(0.0f);    ///< metres along the normal, likewise
     int receiver_plane GN_DEFAULT(1);       ///< 1: taps compare with the receiver's plane, not with one depth
-    float cone GN_DEFAULT(0.0f);            ///< texels towards the light per texel between a tap and the receiver
+    float cone GN_DEFAULT(2.0f);            ///< texels towards the light per texel between a tap and the receiver; with
+                                            ///< receiver_plane, per texel to where the plane falls away from the light
     float view GN_DEFAULT(0.0f);            ///< texels towards the camera
     float view_world GN_DEFAULT(0.0f);      ///< metres towards the camera
     float kernel GN_DEFAULT(1.0f);  ///< without receiver_plane: share of the kernel's reach that the texels grow by

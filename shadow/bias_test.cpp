@@ -9,7 +9,7 @@
 namespace gn {
 namespace {
 
-constexpr GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 0};
+constexpr GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 0, .cone = 0};
 
 GnLightView spot_view() {
     return square_perspective(vec3(0, 30, 0), vec3(0, -1, 0), vec3(0, 0, 1), 1.0, 0.01, 40, 1024);
@@ -44,6 +44,26 @@ constexpr std::array in_metres{&GnBias::constant_world, &GnBias::normal_world, &
 TEST(BiasLaws, NothingMovesAtZero) {
     for (const float degrees : {0.0F, 45.0F, 80.0F}) {
         EXPECT_EQ(shift(receiver_below(10, degrees), no_bias), vec3(0));
+    }
+}
+
+TEST(BiasLaws, OneIsOneTexelOrOneMetreInItsDirection) {
+    for (const float degrees : {10.0F, 50.0F}) {
+        const auto receiver = receiver_below(10, degrees);
+        const float texel_ws = glsl::gn_project(receiver, spot_view(), no_bias).texel_ws;
+        const float sine = std::sin(glm::radians(degrees));
+        const vec3 up_ws(0, 1, 0);
+        const auto expect_shift = [&](float GnBias::*parameter, vec3 expected_ws) {
+            EXPECT_LT(glm::distance(shift(receiver, only(parameter, 1)), expected_ws), 2e-3F * glm::length(expected_ws))
+                << degrees;
+        };
+        expect_shift(&GnBias::constant, texel_ws * up_ws);
+        expect_shift(&GnBias::constant_world, up_ws);
+        expect_shift(&GnBias::slope, texel_ws * std::tan(glm::radians(degrees)) * up_ws);
+        expect_shift(&GnBias::normal, texel_ws * sine * receiver.n_ws);
+        expect_shift(&GnBias::normal_world, sine * receiver.n_ws);
+        expect_shift(&GnBias::view, texel_ws * receiver.to_camera_ws);
+        expect_shift(&GnBias::view_world, receiver.to_camera_ws);
     }
 }
 
@@ -136,6 +156,35 @@ TEST(BiasLaws, AConeAsSteepAsThePlaneCoversEveryTap) {
     }
 }
 
+TEST(BiasLaws, WithThePlaneTheConeOpensToWhereThePlaneFallsAway) {
+    // A plane that turns away from the light along +x: there k texels take k times the cone off, elsewhere nothing.
+    const GnLightView view = spot_view();
+    GnBias plane = no_bias;
+    plane.receiver_plane = 1;
+    GnBias cone = plane;
+    cone.cone = 2;
+    for (const float degrees : {2.0F, 20.0F, 60.0F}) {
+        const auto receiver = receiver_below(20, degrees);
+        const auto open = glsl::gn_project(receiver, view, cone);
+        const auto without = glsl::gn_project(receiver, view, plane);
+        // n = (sin, cos): the plane falls towards +x. Fully open from a tangent of 1/4, in proportion below.
+        const vec2 fall_ts = open.texel_ts * glm::normalize(vec2(open.du_ws.x, open.dv_ws.x));
+        const float opened = std::min(1.0F, 4 * std::tan(glm::radians(degrees)));
+        const float expected = opened * 2 * open.texel_ws / view.metres_per_depth;
+        const auto taken = [&](vec2 d_ts) {
+            const vec2 tap_ts = open.uv_ts + d_ts;
+            const float here = glsl::gn_depth_at(without, tap_ts, plane) - glsl::gn_depth_at(open, tap_ts, cone);
+            const vec4 occluder(glsl::gn_depth_at(without, tap_ts, plane) - 0.5F * (here + 1e-5F));
+            EXPECT_EQ(glsl::gn_lit_at(open, vec4(tap_ts.x), vec4(tap_ts.y), occluder, cone).x, here > 1e-5F);
+            return here;
+        };
+        EXPECT_NEAR(taken(fall_ts), expected, 0.02F * expected + 3e-7F) << degrees;
+        EXPECT_NEAR(taken(3.0F * fall_ts), 3 * expected, 0.02F * 3 * expected + 3e-7F) << degrees;
+        EXPECT_NEAR(taken(-fall_ts), 0, 3e-7F) << degrees;
+        EXPECT_NEAR(taken(vec2(-fall_ts.y, fall_ts.x)), 0, 0.02F * expected) << degrees;
+    }
+}
+
 TEST(BiasLaws, TexelsGrowWithTheKernelUnlessThePlaneIsFollowed) {
     const float texel_ws = 0.02F;
     GnBias bias = no_bias;
@@ -160,7 +209,7 @@ TEST(BiasLaws, ReachIsTheKernelsHalfWidth) {
 
 TEST(BiasRendered, SlopeCoversAWideKernelOnlyWhereItGrowsWithIt) {
     const std::string recipe =
-        "pcf,pcf.size=7,resolution=512,bias.receiver_plane=0,bias.normal=0,bias.constant=0.5,bias.slope=1";
+        "pcf,pcf.size=7,resolution=512,bias.receiver_plane=0,bias.cone=0,bias.normal=0,bias.constant=0.5,bias.slope=1";
     const auto grown = test::compare("tilted:angle=70", recipe);
     const auto fixed = test::compare("tilted:angle=70", recipe + ",bias.kernel=0");
     EXPECT_LE(*grown.errors.acne, 1e-3);
@@ -169,7 +218,7 @@ TEST(BiasRendered, SlopeCoversAWideKernelOnlyWhereItGrowsWithIt) {
 
 TEST(BiasRendered, EachBiasAloneClearsAPlaneThatItsParameterCovers) {
     // Half a texel's diagonal at 60 degrees is 1.23 texels deep; the kernel of 3 reaches 2 texels further.
-    const std::string bare = ",resolution=512,bias.receiver_plane=0,bias.normal=0,bias.constant=0";
+    const std::string bare = ",resolution=512,bias.receiver_plane=0,bias.cone=0,bias.normal=0,bias.constant=0";
     EXPECT_GT(*test::compare("tilted:angle=60", "hard" + bare).errors.acne, 0.3);
     for (const char* cure : {"constant=1.3", "slope=0.75", "normal=1.5", "constant_world=0.5"}) {
         EXPECT_LE(*test::compare("tilted:angle=60", "hard" + bare + ",bias." + cure).errors.acne, 1e-3) << cure;
@@ -193,7 +242,8 @@ TEST(DefaultBias, LeavesTiltedPlanesWithoutAcneTo85Degrees) {
 
 TEST(DefaultBias, WithoutItAcneAppears) {
     const auto c = test::compare(
-        "tilted:angle=60", "hard,resolution=1024,bias.receiver_plane=0,bias.normal=0,bias.constant=0,bias.slope=0");
+        "tilted:angle=60",
+        "hard,resolution=1024,bias.receiver_plane=0,bias.cone=0,bias.normal=0,bias.constant=0,bias.slope=0");
     EXPECT_GT(*c.errors.acne, 0.1);
 }
 

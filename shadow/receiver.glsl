@@ -47,6 +47,7 @@ struct GnProjected {
     vec4 bounds_ts;         // min.xy, max.zw of the view's rectangle
     float metres_per_depth;
     float cone;             // depth towards the light per unit of uv between a tap and the receiver
+    vec2 cone_fall;         // likewise, per unit of uv in the direction in which the plane falls away from the light
     bool inside;            // false: the view does not see the receiver
 };
 
@@ -156,6 +157,16 @@ GN_FN GnProjected gn_project_paraboloid(GnProjected result, GnLightView view, ve
     return result;
 }
 
+// The cone of a steepness, in depth per unit of uv, for a plane whose depth has a slope of 1 where it is `unit`. Creases
+// that are lit on both sides lie where the receiver's plane falls away from the light, and what casts contact shadows on
+// it where it rises: so a cone that goes with the plane opens to one side only, fully from a tangent of 1/4.
+GN_FN GnProjected gn_open_cone(GnProjected projected, float steepness, float unit, GnBias bias) {
+    float slope = max(length(projected.plane_slope), 0.25f * unit);
+    projected.cone = bias.receiver_plane == 0 ? steepness * unit : 0.0f;
+    projected.cone_fall = bias.receiver_plane == 0 ? vec2(0.0f) : projected.plane_slope * (steepness * unit / slope);
+    return projected;
+}
+
 // Map texels and bias are measured where the receiver is; then the receiver is moved and projected.
 GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias) {
     GnProjected result;
@@ -168,7 +179,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     result.texel_ws = result.texel_ts / min(length(result.du_ws), length(result.dv_ws));
     vec3 to_eye = gn_to_eye(view, receiver.p_ws);
     vec3 p_ws = gn_biased(receiver, to_eye, result.texel_ws, bias);
-    result.cone = bias.cone * gn_depth_per_metre(view, to_eye) * result.texel_ws * view.resolution;
+    float unit = gn_depth_per_metre(view, to_eye) * result.texel_ws * view.resolution;
 
     // Project.
     result.layer = view.layer;
@@ -176,7 +187,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     vec4 p_cs = gn_clip(view, p_ws);
     if (view.paraboloid > 0.0f) {
-        return gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws);
+        return gn_open_cone(gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws), bias.cone, unit, bias);
     }
     result.plane_curve = vec2(0.0f);
     float inverse_w = 1.0f / p_cs.w;
@@ -200,10 +211,10 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
         result.plane_slope = vec2(0.0f);
         result.plane_fall = vec2(0.0f);
     }
-    return result;
+    return gn_open_cone(result, bias.cone, unit, bias);
 }
 
-// Depth that the cone takes off at a distance from the receiver; compiled in only where the recipe has a cone.
+// Depth that the cone takes off a tap at a distance from the receiver; compiled in only where the recipe has a cone.
 #if defined(__cplusplus)
 #define GN_BIAS_CONE 1
 #elif !defined(GN_BIAS_CONE)
@@ -211,14 +222,15 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
 #endif
 GN_FN float gn_cone(GnProjected projected, vec2 d_ts) {
 #if GN_BIAS_CONE
-    return projected.cone * length(d_ts);
+    return projected.cone * length(d_ts) + max(dot(projected.cone_fall, d_ts), 0.0f);
 #else
     return 0.0f;
 #endif
 }
 GN_FN vec4 gn_cones(GnProjected projected, vec4 du_ts, vec4 dv_ts) {
 #if GN_BIAS_CONE
-    return projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts);
+    vec4 fall = projected.cone_fall.x * du_ts + projected.cone_fall.y * dv_ts;
+    return projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts) + max(fall, vec4(0.0f));
 #else
     return vec4(0.0f);
 #endif

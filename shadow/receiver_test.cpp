@@ -28,7 +28,7 @@ GnLightView sun_view() {
     return fit_orthographic(body_of(Box{vec3(-5, 0, -5), vec3(5, 4, 5)}), sun, 1024, {});
 }
 
-const GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 1};
+const GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 1, .cone = 0};
 
 class Projection : public ::testing::TestWithParam<GnLightView> {};
 

@@ -26,9 +26,9 @@ const ParamTable bias_params = param_table<GnBias>({
     GN_PARAM(GnBias, normal_world, real, 0, 10, "m", "The same in metres: independent of the map's resolution."),
     GN_PARAM(GnBias, receiver_plane, boolean, 0, 1, "",
              "Wide kernels follow the receiver's plane, which removes their acne and costs two dot products a tap."),
-    GN_PARAM(
-        GnBias, cone, real, 0, 64, "texels",
-        "Lifts each tap by this much a texel of its distance: less acne under wide kernels, more leaks beside it."),
+    GN_PARAM(GnBias, cone, real, 0, 64, "texels",
+             "Lifts each tap by this much a texel of its distance, with receiver_plane only where the plane falls "
+             "away: less acne in lit creases, more leaks there."),
     GN_PARAM(GnBias, view, real, 0, 64, "texels",
              "Moves the receiver towards the camera: less acne on surfaces that face it, a gap that moves with it."),
     GN_PARAM(GnBias, view_world, real, 0, 10, "m", "The same in metres: independent of the map's resolution."),

@@ -147,7 +147,7 @@ TEST(Casters, PointAtIsOnTheRayAtItsDepth) {
     }
 }
 
-constexpr const char* bare = ",bias.constant=0,bias.normal=0,bias.receiver_plane=0";
+constexpr const char* bare = ",bias.constant=0,bias.normal=0,bias.receiver_plane=0,bias.cone=0";
 
 test::Comparison contact(const std::string& recipe) {
     return test::compare("contact", recipe, {.width = 320, .height = 240, .samples = 1, .view = "foot"});

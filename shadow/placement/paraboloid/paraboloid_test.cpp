@@ -89,7 +89,7 @@ TEST(Paraboloid, HitIsThePointOnTheTriangle) {
     }
 }
 
-const GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 1};
+const GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 1, .cone = 0};
 
 TEST(Paraboloid, DepthOfThePlaneIsExact) {
     const GnLightView view = some_view();
