@@ -66,7 +66,7 @@ TEST_P(Projection, FourAtOnceAnswerAsOneByOne) {
         for (int k = 0; k < 4; ++k) {
             u[k] = projected.uv_ts.x + uniform(random);
             v[k] = projected.uv_ts.y + uniform(random);
-            occluder[k] = projected.depth + 0.3F * uniform(random);
+            occluder[k] = glsl::gn_depth_at(projected, vec2(u[k], v[k]), GnBias{}) + 0.3F * uniform(random);
         }
         const glm::bvec4 four = glsl::gn_lit_at(projected, u, v, occluder, GnBias{});
         for (int k = 0; k < 4; ++k) {

@@ -260,7 +260,7 @@ TEST(Show, EveryPlacementHasItsPictures) {
         if (part->stage != Stage::placement) {
             continue;
         }
-        const std::string recipe = fmt::format("hard,placement={},resolution=128", part->id);
+        const std::string recipe = fmt::format("hard,placement={},resolution=512", part->id);
         const Scene& scene = part->lights.directional ? sun : point;
         for (const Shown& shown : show(scene, recipe, names)) {
             EXPECT_FALSE(shown.legend.empty());
