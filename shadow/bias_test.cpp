@@ -150,9 +150,13 @@ TEST(BiasLaws, AConeAsSteepAsThePlaneCoversEveryTap) {
     for (const float k : {1.0F, 2.0F, 6.0F}) {
         const vec2 d_ts = projected.texel_ts * k * vec2(0.6F, -0.8F);
         const float expected = k * cone.cone * projected.texel_ws / view.metres_per_depth;
-        EXPECT_NEAR(at_receiver - glsl::gn_depth_at(projected, projected.uv_ts + d_ts, cone), expected,
-                    1e-3F * expected + 2e-7F);
-        EXPECT_NEAR(glsl::gn_cones(projected, vec4(d_ts.x), vec4(d_ts.y)).z, expected, 1e-3F * expected);
+        const float depth = glsl::gn_depth_at(projected, projected.uv_ts + d_ts, cone);
+        EXPECT_NEAR(at_receiver - depth, expected, 1e-3F * expected + 2e-7F);
+        const auto lit = [&](float occluder) {
+            return glsl::gn_lit_beside(projected, vec4(d_ts.x), vec4(d_ts.y), vec4(occluder), cone).z;
+        };
+        EXPECT_TRUE(lit(depth + 1e-3F * expected + 2e-7F));
+        EXPECT_FALSE(lit(depth - 1e-3F * expected - 2e-7F));
     }
 }
 

@@ -47,7 +47,7 @@ struct GnProjected {
     vec4 bounds_ts;         // min.xy, max.zw of the view's rectangle
     float metres_per_depth;
     float cone;             // depth towards the light per unit of uv between a tap and the receiver
-    vec2 cone_fall;         // likewise, per unit of uv in the direction in which the plane falls away from the light
+    float cone_share;       // likewise, as a share of what the plane falls away from the light by
     bool inside;            // false: the view does not see the receiver
 };
 
@@ -163,7 +163,7 @@ GN_FN GnProjected gn_project_paraboloid(GnProjected result, GnLightView view, ve
 GN_FN GnProjected gn_open_cone(GnProjected projected, float steepness, float unit, GnBias bias) {
     float slope = max(length(projected.plane_slope), 0.25f * unit);
     projected.cone = bias.receiver_plane == 0 ? steepness * unit : 0.0f;
-    projected.cone_fall = bias.receiver_plane == 0 ? vec2(0.0f) : projected.plane_slope * (steepness * unit / slope);
+    projected.cone_share = bias.receiver_plane == 0 ? 0.0f : steepness * unit / slope;
     return projected;
 }
 
@@ -214,54 +214,73 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     return gn_open_cone(result, bias.cone, unit, bias);
 }
 
-// Depth that the cone takes off a tap at a distance from the receiver; compiled in only where the recipe has a cone.
+// What a host may fix when it compiles: whether there is a cone, whether taps follow the receiver's plane, and that no view
+// of the placement is perspective or bent. Left open, all of it is decided tap by tap.
 #if defined(__cplusplus)
 #define GN_BIAS_CONE 1
-#elif !defined(GN_BIAS_CONE)
-#define GN_BIAS_CONE 0
+#define GN_BIAS_PLANE (bias.receiver_plane != 0)
+#define GN_AFFINE_VIEWS 0
 #endif
+#ifndef GN_BIAS_CONE
+#define GN_BIAS_CONE 1
+#endif
+#ifndef GN_BIAS_PLANE
+#define GN_BIAS_PLANE (bias.receiver_plane != 0)
+#endif
+#ifndef GN_AFFINE_VIEWS
+#define GN_AFFINE_VIEWS 0
+#endif
+
+// Depth that the cone takes off a tap at a distance from the receiver.
 GN_FN float gn_cone(GnProjected projected, vec2 d_ts) {
-#if GN_BIAS_CONE
-    return projected.cone * length(d_ts) + max(dot(projected.cone_fall, d_ts), 0.0f);
-#else
-    return 0.0f;
-#endif
-}
-GN_FN vec4 gn_cones(GnProjected projected, vec4 du_ts, vec4 dv_ts) {
-#if GN_BIAS_CONE
-    vec4 fall = projected.cone_fall.x * du_ts + projected.cone_fall.y * dv_ts;
-    return projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts) + max(fall, vec4(0.0f));
-#else
-    return vec4(0.0f);
-#endif
+    if (GN_BIAS_CONE == 0) {
+        return 0.0f;
+    }
+    return projected.cone * length(d_ts) + projected.cone_share * max(dot(projected.plane_slope, d_ts), 0.0f);
 }
 
 // Linear depth of the receiver's plane at uv_ts, or of the receiver itself where bias.receiver_plane is off.
 GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
     vec2 d_ts = uv_ts - projected.uv_ts;
     float depth = projected.depth - gn_cone(projected, d_ts);
-    if (bias.receiver_plane == 0) {
+    if (!GN_BIAS_PLANE) {
         return depth;
+    }
+    float slope = dot(projected.plane_slope, d_ts);
+    if (GN_AFFINE_VIEWS == 1) {
+        return depth + slope;
     }
     vec2 curve = projected.plane_curve * dot(d_ts, d_ts);
     float divisor = max(1.0f - dot(projected.plane_fall, d_ts) - curve.y, gn_least_divisor);
-    return depth + (dot(projected.plane_slope, d_ts) + curve.x) / divisor;
+    return depth + (slope + curve.x) / divisor;
 }
 
-// Whether four occluders at four points leave the receiver's plane lit: gn_depth_at <= occluder without the division.
-GN_FN bvec4 gn_lit_at(GnProjected projected, vec4 u_ts, vec4 v_ts, vec4 occluder, GnBias bias) {
-    vec4 du_ts = u_ts - projected.uv_ts.x;
-    vec4 dv_ts = v_ts - projected.uv_ts.y;
-    vec4 room = occluder - projected.depth + gn_cones(projected, du_ts, dv_ts);
-    float plane = bias.receiver_plane == 0 ? 0.0f : 1.0f;
-    vec4 divisor = 1.0f - plane * (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
-    vec4 offset = plane * (projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts);
+// Whether four occluders beside the receiver leave its plane lit: gn_depth_at <= occluder without the division.
+GN_FN bvec4 gn_lit_beside(GnProjected projected, vec4 du_ts, vec4 dv_ts, vec4 occluder, GnBias bias) {
+    vec4 room = occluder - projected.depth;
+    if (!GN_BIAS_PLANE) {
+        vec4 cone = GN_BIAS_CONE == 0 ? vec4(0.0f) : projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts);
+        return greaterThanEqual(room + cone, vec4(0.0f));
+    }
+    vec4 offset = projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts;
+    if (GN_BIAS_CONE == 1) {
+        room = room + projected.cone_share * max(offset, vec4(0.0f));
+    }
+    if (GN_AFFINE_VIEWS == 1) {
+        return lessThanEqual(offset, room);
+    }
+    vec4 divisor = 1.0f - (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
     if (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f) {
-        vec4 square = plane * (du_ts * du_ts + dv_ts * dv_ts);
+        vec4 square = du_ts * du_ts + dv_ts * dv_ts;
         divisor = divisor - projected.plane_curve.y * square;
         offset = offset + projected.plane_curve.x * square;
     }
     return lessThanEqual(offset, room * max(divisor, gn_least_divisor));
+}
+
+// The same at four points of the map.
+GN_FN bvec4 gn_lit_at(GnProjected projected, vec4 u_ts, vec4 v_ts, vec4 occluder, GnBias bias) {
+    return gn_lit_beside(projected, u_ts - projected.uv_ts.x, v_ts - projected.uv_ts.y, occluder, bias);
 }
 
 // A length across the rays at the receiver, in texels of the map's u axis and v axis.

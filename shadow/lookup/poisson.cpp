@@ -49,12 +49,20 @@ void spread(std::span<vec2> points) {
     }
 }
 
-std::string glsl_array(std::span<const vec2> points, const std::string& name) {
-    std::string text = fmt::format("const vec2 {}[{}] = vec2[](", name, points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        text += fmt::format("{}vec2({:.8f}, {:.8f})", i == 0 ? "" : ", ", points[i].x, points[i].y);
+std::string glsl_fours(std::string_view name, std::span<const vec2> points) {
+    std::string text = fmt::format("#define {}(take)", name);
+    for (std::size_t first = 0; first < points.size(); first += 4) {
+        const auto four = [&](const auto& value) {
+            std::string list;
+            for (std::size_t i = first; i < first + 4; ++i) {
+                list += fmt::format("{}{:.8f}", i == first ? "" : ", ", i < points.size() ? value(points[i]) : 0.0F);
+            }
+            return list;
+        };
+        text += fmt::format(" take(vec4({}), vec4({}), vec4({}))", four([](vec2 p) { return p.x; }),
+                            four([](vec2 p) { return p.y; }), four([](vec2) { return 1.0F; }));
     }
-    return text + ");\n";
+    return text + "\n";
 }
 
 }  // namespace gn

@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gn {
@@ -22,7 +23,8 @@ PoissonSet poisson_disc(int count, unsigned seed);
 /// Orders points so that any first few see the whole disc: each next one is the farthest from those before it.
 void spread(std::span<vec2> points);
 
-/// Points as a GLSL constant array `name`.
-std::string glsl_array(std::span<const vec2> points, const std::string& name);
+/// A GLSL macro `name(take)` that expands to take(x, y, counted) for every four points: their coordinates as vec4, and 1
+/// for each point that is one, 0 where points ran out. Lists unroll where loops over tables do not.
+std::string glsl_fours(std::string_view name, std::span<const vec2> points);
 
 }  // namespace gn

@@ -60,10 +60,11 @@ std::string map_call(const Part& map) {
         identifier(map.id), map.params_type.empty() ? "" : ", u.map_params");
 }
 
-ComputeDesc resolve_shader(const Part& placement, const Recipe& recipe) {
+ComputeDesc resolve_shader(const Recipe& recipe, const LightViews& views) {
+    const Part& placement = *views.part;
     const Part& map = *recipe.map;
     const Part& lookup = *recipe.lookup;
-    std::string text = bias_defines(recipe) + (recipe.casters == "ids" ? "#define GN_CASTER_IDS\n" : "");
+    std::string text = receiver_defines(recipe, views) + (recipe.casters == "ids" ? "#define GN_CASTER_IDS\n" : "");
     text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
     text += prologue_of(map, recipe) + include_line(map.glsl);
     // A lookup that filters calls the map's function, so that the uniform block must stand before it.
@@ -117,7 +118,7 @@ Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const Ligh
             }
             pass.storage_write(result.image);
         },
-        [shader = resolve_shader(*views.part, recipe), bytes = constants_of(input, recipe), samples, views, map, result,
+        [shader = resolve_shader(recipe, views), bytes = constants_of(input, recipe), samples, views, map, result,
          ids](Recorder& r) {
             r.bind(shader);
             set_samples(r, samples, views);

@@ -3,6 +3,8 @@
 
 #include "shadow/placement/receivers.h"
 
+#include <algorithm>
+
 namespace gn {
 namespace {
 
@@ -44,8 +46,13 @@ std::string sample_functions(const Part& placement) {
     return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}", identifier(placement.id), read_text);
 }
 
-std::string bias_defines(const Recipe& recipe) {
-    return recipe.bias.cone > 0 ? "#define GN_BIAS_CONE 1\n" : "";
+std::string receiver_defines(const Recipe& recipe, const LightViews& views) {
+    const bool affine = std::all_of(views.views.begin(), views.views.end(), [](const GnLightView& view) {
+        const mat4& m = view.cs_from_ws;
+        return view.paraboloid == 0 && vec4(m[0].w, m[1].w, m[2].w, m[3].w) == vec4(0, 0, 0, 1);
+    });
+    return fmt::format("#define GN_BIAS_CONE {:d}\n#define GN_BIAS_PLANE {}\n#define GN_AFFINE_VIEWS {:d}\n",
+                       recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, affine);
 }
 
 GnBias applied_bias(const Recipe& recipe) {

@@ -18,8 +18,8 @@ std::string sample_bindings(std::string_view members);
 /// is false where no sample counts.
 std::string sample_functions(const Part& placement);
 
-/// GLSL that must stand before shadow/receiver.glsl: what the recipe's bias compiles in.
-std::string bias_defines(const Recipe& recipe);
+/// GLSL that must stand before shadow/receiver.glsl: what the recipe's bias and the placement's views let it leave out.
+std::string receiver_defines(const Recipe& recipe, const LightViews& views);
 /// The recipe's bias with the reach of its kernels.
 GnBias applied_bias(const Recipe& recipe);
 

@@ -46,8 +46,9 @@ void main() {
 }
 )";
 
-ComputeDesc figures_shader(const Part& placement, const Recipe& recipe) {
-    const std::string text = bias_defines(recipe) + "#include \"shadow/view/view.glsl\"\n" +
+ComputeDesc figures_shader(const Recipe& recipe, const LightViews& views) {
+    const Part& placement = *views.part;
+    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
                              include_line(placement.glsl) + include_line("shadow/lookup/show.glsl") +
                              sample_bindings("GnBias no_bias;") + sample_functions(placement) + output_text;
     return {{ShaderKind::compute, fmt::format("show {}", placement.id), text}, {}};
@@ -156,7 +157,7 @@ SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, 
             pass.storage_write(figures.choice);
             pass.storage_write(figures.sizes);
         },
-        [shader = figures_shader(*views.part, recipe), bytes, samples, views, figures](Recorder& r) {
+        [shader = figures_shader(recipe, views), bytes, samples, views, figures](Recorder& r) {
             r.bind(shader);
             set_samples(r, samples, views);
             r.set_storage("show_choice", figures.choice);

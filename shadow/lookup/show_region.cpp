@@ -44,8 +44,9 @@ void main() {
 }
 )";
 
-ComputeDesc region_shader(const Part& placement, const Recipe& recipe) {
-    const std::string text = bias_defines(recipe) + "#include \"shadow/view/view.glsl\"\n" +
+ComputeDesc region_shader(const Recipe& recipe, const LightViews& views) {
+    const Part& placement = *views.part;
+    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
                              include_line(placement.glsl) + include_line("shadow/lookup/show.glsl") +
                              sample_bindings("float pixels;") + sample_functions(placement) + main_text;
     return {{ShaderKind::compute, fmt::format("kernel regions {}", placement.id), text}, {}};
@@ -79,7 +80,7 @@ Axes add_regions(const FrameInput& input, const Recipe& recipe, const LightViews
             pass.storage_write(axes.a);
             pass.storage_write(axes.b);
         },
-        [shader = region_shader(*views.part, recipe), bytes, samples, views, axes](Recorder& r) {
+        [shader = region_shader(recipe, views), bytes, samples, views, axes](Recorder& r) {
             r.bind(shader);
             set_samples(r, samples, views);
             r.set_storage("region_a", axes.a);

@@ -25,19 +25,28 @@ float gn_fetch_gathers_visibility(GnReceiver receiver, GnProjected projected, Gn
 }
 
 // The texels that a disc kernel of `pcf` compares with, at the same places.
+float gn_fetch_four(GnProjected projected, sampler2DArray map, vec2 radius_ts, vec2 turn, vec4 x, vec4 y) {
+    vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
+    float sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        vec2 turned = vec2(turn.x * x[k] - turn.y * y[k], turn.y * x[k] + turn.x * y[k]);
+        vec2 tap_ts = clamp(projected.uv_ts + radius_ts * turned, projected.bounds_ts.xy, last_ts);
+        sum += texelFetch(map, ivec3(ivec2(floor(tap_ts / projected.texel_ts)), projected.layer), 0).r;
+    }
+    return sum;
+}
+
 float gn_fetch_taps_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
                                GnPcfParams params) {
     vec2 radius_ts = vec2(params.radius * projected.texel_ts);
     float angle = GN_PCF_KERNEL == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
     vec2 turn = vec2(cos(angle), sin(angle));
-    vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
     float sum = 0.0;
-    for (int i = 0; i < GN_PCF_TAPS; ++i) {
-        vec2 p = GN_PCF_POINT(i);
-        vec2 tap_ts = projected.uv_ts + radius_ts * vec2(turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y);
-        tap_ts = clamp(tap_ts, projected.bounds_ts.xy, last_ts);
-        sum += texelFetch(map, ivec3(ivec2(floor(tap_ts / projected.texel_ts)), projected.layer), 0).r;
-    }
+#ifdef GN_PCF_PROBES
+#define GN_FETCH_TAKE(x, y, counted) sum += gn_fetch_four(projected, map, radius_ts, turn, x, y);
+    GN_PCF_PROBES(GN_FETCH_TAKE)
+    GN_PCF_OTHERS(GN_FETCH_TAKE)
+#endif
     return sum / float(GN_PCF_TAPS);
 }
 

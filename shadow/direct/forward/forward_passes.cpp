@@ -168,7 +168,8 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
         input.graph.create(BufferDesc{.name = "forward samples", .bytes = pixels(samples) * sample_bytes});
 
     // Compose the shader as lookups do: the placement chooses, the bias moves.
-    std::string text = bias_defines(recipe) + "#include \"shadow/view/view.glsl\"\n" + include_line(views.part->glsl);
+    std::string text =
+        receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" + include_line(views.part->glsl);
     text += "#include \"shadow/direct/forward/forward.glsl\"\n";
     text += sample_bindings("GnForwardParams params;") + sample_functions(*views.part) + samples_text;
     std::vector<std::byte> constants = sample_constants(input, recipe);

@@ -50,8 +50,10 @@ std::string prologue(const Recipe& recipe) {
         return text;
     }
     text += fmt::format("#define GN_PCF_TAPS {}\n#define GN_PCF_EARLY_OUT {}\n", params.taps, params.early_out != 0);
-    text += glsl_array(disc_of(params), "gn_pcf_points");
-    text += "#define GN_PCF_POINT(i) gn_pcf_points[i]\n";
+    const std::vector<vec2> disc = disc_of(params);
+    const std::size_t probes = std::min<std::size_t>(8, disc.size());
+    text += glsl_fours("GN_PCF_PROBES", std::span(disc).first(probes));
+    text += glsl_fours("GN_PCF_OTHERS", std::span(disc).subspan(probes));
     return text;
 }
 

@@ -78,10 +78,8 @@ GN_FN float gn_pcf_angle(vec2 p_ss) {
 }  // namespace gn::glsl
 #else
 
-// The host may define GN_PCF_POINT(i): tap i of a set on the unit disc, made beforehand. Without it the spiral serves.
-#ifndef GN_PCF_POINT
-#define GN_PCF_POINT(i) gn_pcf_vogel(i, params.taps, 0.0)
-#endif
+// The host may list the taps of a set on the unit disc, made beforehand, four at a time: GN_PCF_PROBES(take) and
+// GN_PCF_OTHERS(take) expand to take(x, y, counted) for the first eight and for the rest. Without them the spiral serves.
 // The host may fix the loops' counts at pipeline creation.
 #ifndef GN_PCF_FOOTPRINT
 #define GN_PCF_FOOTPRINT gn_pcf_footprint(params.kernel, params.size)
@@ -109,6 +107,8 @@ float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
 float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
     vec2 t = projected.uv_ts / projected.texel_ts;
     ivec2 first = ivec2(gn_pcf_first(params.kernel, params.size, t.x), gn_pcf_first(params.kernel, params.size, t.y));
+    vec2 first_ts = vec2(first + 1) * projected.texel_ts;
+    float half_ts = 0.5 * projected.texel_ts;
     float sum = 0.0;
     float total = 0.0;
     for (int y = 0; y < GN_PCF_FOOTPRINT; y += 2) {
@@ -116,17 +116,16 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
         for (int x = 0; x < GN_PCF_FOOTPRINT; x += 2) {
             vec2 wx = vec2(gn_pcf_axis_weight(params, t.x, x), gn_pcf_axis_weight(params, t.x, x + 1));
             // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
-            vec2 corner_ts = vec2(first + ivec2(x, y) + 1) * projected.texel_ts;
+            vec2 corner_ts = first_ts + vec2(x, y) * projected.texel_ts;
+            vec2 d_ts = corner_ts - projected.uv_ts;
             vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
-            vec4 u_ts = corner_ts.x + vec4(-0.5, 0.5, 0.5, -0.5) * projected.texel_ts;
-            vec4 v_ts = corner_ts.y + vec4(0.5, 0.5, -0.5, -0.5) * projected.texel_ts;
-            vec4 lit = vec4(gn_lit_at(projected, u_ts, v_ts, occluder, bias));
-            vec4 weight = vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);
-            sum += dot(lit, weight);
-            total += dot(vec4(1.0), weight);
+            vec4 lit = vec4(gn_lit_beside(projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
+                                          d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, bias));
+            sum += dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
+            total += (wx.x + wx.y) * (wy.x + wy.y);
         }
     }
-    return sum / total;
+    return params.kernel == GN_PCF_GAUSSIAN ? sum / total : sum;
 }
 
 // Four taps of a disc kernel: the texels that they fall into, compared at the texels' centres.
@@ -141,25 +140,32 @@ vec4 gn_pcf_taps(GnProjected projected, GnBias bias, sampler2DArray map, vec4 u_
     return vec4(gn_lit_at(projected, (u + 0.5) * projected.texel_ts, (v + 0.5) * projected.texel_ts, occluder, bias));
 }
 
-// The sum of taps first to end - 1; `turn` is the cosine and sine of the set's rotation.
-float gn_pcf_disc_sum(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params, vec2 radius_ts,
-                      vec2 turn, int first, int end) {
+// How many of four taps are lit: their points on the unit disc, turned and scaled; `counted` is 1 or 0 each.
+float gn_pcf_four(GnProjected projected, GnBias bias, sampler2DArray map, vec2 radius_ts, vec2 turn, vec4 x, vec4 y,
+                  vec4 counted) {
+    vec4 u_ts = projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
+    vec4 v_ts = projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
+    return dot(counted, gn_pcf_taps(projected, bias, map, u_ts, v_ts));
+}
+
+#ifndef GN_PCF_PROBES
+float gn_pcf_spiral(GnProjected projected, GnBias bias, sampler2DArray map, vec2 radius_ts, vec2 turn, int taps,
+                    int first, int end) {
     float sum = 0.0;
     for (int i = first; i < end; i += 4) {
         vec4 x;
         vec4 y;
         for (int k = 0; k < 4; ++k) {
-            vec2 p = GN_PCF_POINT(min(i + k, GN_PCF_TAPS - 1));
+            vec2 p = gn_pcf_vogel(i + k, taps, 0.0);
             x[k] = p.x;
             y[k] = p.y;
         }
-        vec4 u_ts = projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
-        vec4 v_ts = projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
-        vec4 counted = vec4(lessThan(i + ivec4(0, 1, 2, 3), ivec4(end)));
-        sum += dot(counted, gn_pcf_taps(projected, bias, map, u_ts, v_ts));
+        vec4 counted = vec4(lessThan(i + ivec4(0, 1, 2, 3), ivec4(taps)));
+        sum += gn_pcf_four(projected, bias, map, radius_ts, turn, x, y, counted);
     }
     return sum;
 }
+#endif
 
 float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
     vec2 radius_ts = vec2(params.radius * projected.texel_ts);
@@ -168,17 +174,26 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
     }
     float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
     vec2 turn = vec2(cos(angle), sin(angle));
-    if (!GN_PCF_EARLY_OUT || GN_PCF_TAPS <= 8) {
-        return gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 0, GN_PCF_TAPS) / float(GN_PCF_TAPS);
-    }
+    int probes = min(GN_PCF_TAPS, 8);
+    float sum = 0.0;
+#ifdef GN_PCF_PROBES
+#define GN_PCF_TAKE(x, y, counted) sum += gn_pcf_four(projected, bias, map, radius_ts, turn, x, y, counted);
+    GN_PCF_PROBES(GN_PCF_TAKE)
+#else
+    sum = gn_pcf_spiral(projected, bias, map, radius_ts, turn, GN_PCF_TAPS, 0, probes);
+#endif
 
     // Two steps: where the first taps agree, the rest would. (Uralsky's early out, [EASW09] 4.2)
-    float probed = gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 0, 8);
-    if (probed == 0.0 || probed == 8.0) {
-        return probed / 8.0;
+    if (GN_PCF_EARLY_OUT && (sum == 0.0 || sum == float(probes))) {
+        return sum / float(probes);
     }
-    float rest = gn_pcf_disc_sum(projected, bias, map, params, radius_ts, turn, 8, GN_PCF_TAPS);
-    return (probed + rest) / float(GN_PCF_TAPS);
+#ifdef GN_PCF_PROBES
+    GN_PCF_OTHERS(GN_PCF_TAKE)
+#undef GN_PCF_TAKE
+#else
+    sum += gn_pcf_spiral(projected, bias, map, radius_ts, turn, GN_PCF_TAPS, probes, GN_PCF_TAPS);
+#endif
+    return sum / float(GN_PCF_TAPS);
 }
 
 float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
