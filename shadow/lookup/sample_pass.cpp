@@ -12,8 +12,12 @@ constexpr const char* bindings_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D gbuffer_position;
 layout(binding = 1) uniform sampler2D gbuffer_normal;
+#ifdef GN_VIEW_COUNT
+layout(binding = 2, scalar) uniform Views { GnLightView views[GN_VIEW_COUNT]; };
+#else
 layout(binding = 2, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 3, scalar) readonly buffer Placement { GnPlacementData placement; };
+#endif
+layout(binding = 3, scalar) uniform Placement { GnPlacementData placement; };
 layout(binding = 7, scalar) uniform Constants {
     GnViewConstants view;
     GnLight light;
@@ -51,8 +55,12 @@ std::string receiver_defines(const Recipe& recipe, const LightViews& views) {
         const mat4& m = view.cs_from_ws;
         return view.paraboloid == 0 && vec4(m[0].w, m[1].w, m[2].w, m[3].w) == vec4(0, 0, 0, 1);
     });
+    // Uniform blocks of this many views fit every device; what is uniform is read once for many pixels.
+    constexpr std::size_t most_uniform = 16384 / sizeof(GnLightView);
+    const std::size_t count = views.views.size();
     return fmt::format("#define GN_BIAS_CONE {:d}\n#define GN_BIAS_PLANE {}\n#define GN_AFFINE_VIEWS {:d}\n",
-                       recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, affine);
+                       recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, affine) +
+           (count <= most_uniform ? fmt::format("#define GN_VIEW_COUNT {}\n", count) : "");
 }
 
 GnBias applied_bias(const Recipe& recipe) {

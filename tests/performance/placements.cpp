@@ -97,7 +97,7 @@ void placements(Bench& bench) {
     print_title("shadow time over one map of as many texels");
     cascades_over_one(bench, "courtyard");
     cascades_over_one(bench, "corridor");
-    paraboloid_over_cube(bench, "contact:light=2", 0);
+    paraboloid_over_cube(bench, "contact:light=point", 0);
     paraboloid_over_cube(bench, "courtyard", 1);
 
     print_title("making 4 cascades of 1024 along the camera's path, kept over redrawn");

@@ -56,10 +56,6 @@ GN_FN float gn_cascades_split(GnCascadesParams params, float near, float far, in
 //   [14..15] per cascade: angle of u in the plane of the axes
 GN_FN float gn_cascades_of8(vec4 low, vec4 high, int i) { return i < 4 ? low[i] : high[i - 4]; }
 
-GN_FN float gn_cascades_end(GnPlacementData data, int i) {
-    return i < 0 ? data.values[3].x : gn_cascades_of8(data.values[1], data.values[2], i);
-}
-
 // Position of p in cascade i, in clip units: its largest coordinate, 1 at the border.
 GN_FN float gn_cascades_border(GnPlacementData data, int i, vec3 p_ws) {
     vec2 p_ls = vec2(dot(vec3(data.values[4]), p_ws), dot(vec3(data.values[5]), p_ws));
@@ -93,33 +89,64 @@ GN_FN GnChoice gn_cascades_transition(int first, float weight, int transition, v
     return choice;
 }
 
+// Where a receiver stands: in which cascade, and where from its start (0) to its end (1).
+struct GnCascadesPlace {
+    int cascade;
+    float position;
+};
+
+// The loops run over all cascades that there can be, so that they unroll and no index into `data` is computed: an array
+// that is indexed by a variable is copied for every pixel.
+GN_FN GnCascadesPlace gn_cascades_by_distance(GnPlacementData data, int count, float view_depth) {
+    int i = 0;
+    float start = data.values[3].x;
+    float end = data.values[1].x;
+    for (int k = 1; k < GN_CASCADES_MOST; ++k) {
+        if (k < count && view_depth > end) {
+            i = k;
+            start = end;
+            end = gn_cascades_of8(data.values[1], data.values[2], k);
+        }
+    }
+    GnCascadesPlace place;
+    place.cascade = i;
+    place.position = (view_depth - start) / max(end - start, 1.0e-6f);
+    return place;
+}
+
+// The first cascade that holds the receiver and its kernel has the finest texels.
+GN_FN GnCascadesPlace gn_cascades_by_projection(GnPlacementData data, int count, vec3 p_ws) {
+    float limit = data.values[3].y;
+    int i = 0;
+    float position = gn_cascades_border(data, 0, p_ws) / limit;
+    float beyond = 0.0f;
+    for (int k = 1; k < GN_CASCADES_MOST; ++k) {
+        if (k < count && k == i + 1) {
+            beyond = gn_cascades_border(data, k, p_ws) / limit;
+            if (position > 1.0f) {
+                i = k;
+                position = beyond;
+                beyond = 0.0f;
+            }
+        }
+    }
+    // What the next cascade does not hold cannot be blended with it.
+    GnCascadesPlace place;
+    place.cascade = i;
+    place.position = beyond > 1.0f ? 0.0f : position;
+    return place;
+}
+
 GN_FN GnChoice gn_cascades_choose(GnReceiver receiver, GnPlacementData data) {
     int count = int(data.values[0].x);
-    int transition = int(data.values[0].y);
-    float width = data.values[0].w;
-    int i = 0;
-    float position = 0.0f;
+    GnCascadesPlace place;
     if (int(data.values[0].z) == GN_SELECT_PROJECTION) {
-        // The first cascade that holds the receiver and its kernel has the finest texels.
-        float limit = data.values[3].y;
-        position = gn_cascades_border(data, 0, receiver.p_ws) / limit;
-        while (i + 1 < count && position > 1.0f) {
-            i += 1;
-            position = gn_cascades_border(data, i, receiver.p_ws) / limit;
-        }
-        // What the next cascade does not hold cannot be blended with it.
-        if (i + 1 < count && gn_cascades_border(data, i + 1, receiver.p_ws) > limit) {
-            position = 0.0f;
-        }
+        place = gn_cascades_by_projection(data, count, receiver.p_ws);
     } else {
-        while (i + 1 < count && receiver.view_depth > gn_cascades_end(data, i)) {
-            i += 1;
-        }
-        float start = gn_cascades_end(data, i - 1);
-        position = (receiver.view_depth - start) / max(gn_cascades_end(data, i) - start, 1.0e-6f);
+        place = gn_cascades_by_distance(data, count, receiver.view_depth);
     }
-    float weight = i + 1 < count ? gn_cascades_band(position, width) : 0.0f;
-    return gn_cascades_transition(i, weight, transition, receiver.p_ss);
+    float weight = place.cascade + 1 < count ? gn_cascades_band(place.position, data.values[0].w) : 0.0f;
+    return gn_cascades_transition(place.cascade, weight, int(data.values[0].y), receiver.p_ss);
 }
 
 #ifdef __cplusplus
