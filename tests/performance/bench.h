@@ -11,7 +11,7 @@ namespace gn::performance {
 
 inline constexpr uint width = 960, height = 540;
 /// Both sides of a ratio are run this often in turns, so that what else the machine does meets both.
-inline constexpr int rounds = 6, repeats = 4;
+inline constexpr int rounds = 4, repeats = 4;
 
 class Bench {
   public:
