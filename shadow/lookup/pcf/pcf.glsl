@@ -6,6 +6,7 @@
 #define GN_SHADOW_LOOKUP_PCF_GLSL
 
 #include "shadow/lookup/pcf/pcf.h"
+#include "shadow/noise.glsl"
 #include "shadow/receiver.glsl"
 
 #ifdef __cplusplus
@@ -66,13 +67,8 @@ GN_FN vec2 gn_pcf_vogel(int i, int n, float phase) {
     return r * vec2(cos(angle), sin(angle));
 }
 
-// An angle per pixel from interleaved gradient noise. [Jim14]
-GN_FN float gn_pcf_angle(vec2 p_ss) {
-    float inner = 0.06711056f * p_ss.x + 0.00583715f * p_ss.y;
-    inner = inner - floor(inner);
-    float noise = 52.9829189f * inner;
-    return 6.28318531f * (noise - floor(noise));
-}
+// An angle per pixel.
+GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_ss); }
 
 #ifdef __cplusplus
 }  // namespace gn::glsl

@@ -6,6 +6,7 @@
 #ifndef GN_SHADOW_PLACEMENT_CASCADES_GLSL
 #define GN_SHADOW_PLACEMENT_CASCADES_GLSL
 
+#include "shadow/noise.glsl"
 #include "shadow/placement/cascades/cascades.h"
 #include "shadow/placement/faces.glsl"
 
@@ -71,19 +72,12 @@ GN_FN float gn_cascades_band(float position, float width) {
     return width > 0.0f ? clamp((position - (1.0f - width)) / width, 0.0f, 1.0f) : 0.0f;
 }
 
-// A threshold per pixel from interleaved gradient noise. [Jim14]
-GN_FN float gn_cascades_noise(vec2 p_ss) {
-    float inner = 0.06711056f * p_ss.x + 0.00583715f * p_ss.y;
-    inner = 52.9829189f * (inner - floor(inner));
-    return inner - floor(inner);
-}
-
 GN_FN GnChoice gn_cascades_transition(int first, float weight, int transition, vec2 p_ss) {
     GnChoice choice = gn_only(first);
     if (transition == GN_TRANSITION_BLEND && weight > 0.0f) {
         choice.second = first + 1;
         choice.weight = weight;
-    } else if (transition == GN_TRANSITION_DITHER && weight > gn_cascades_noise(p_ss)) {
+    } else if (transition == GN_TRANSITION_DITHER && weight > gn_gradient_noise(p_ss)) {
         choice.first = first + 1;
     }
     return choice;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Noise over the screen. Compiles as GLSL and as C++.
+#ifndef GN_SHADOW_NOISE_GLSL
+#define GN_SHADOW_NOISE_GLSL
+
+#include "base/shared.h"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// Interleaved gradient noise in [0,1) of a pixel. [Jim14]
+GN_FN float gn_gradient_noise(vec2 p_ss) {
+    float inner = 0.06711056f * p_ss.x + 0.00583715f * p_ss.y;
+    inner = 52.9829189f * (inner - floor(inner));
+    return inner - floor(inner);
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#endif
+#endif
