@@ -4,6 +4,7 @@
 
 #include "shadow/check_recipe.h"
 #include "shadow/history.h"
+#include "shadow/placement/place.h"
 #include "shadow/view/read_back.h"
 
 namespace gn {
@@ -17,9 +18,7 @@ Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
     } else if (recipe.lookup == nullptr) {
         visibility = add_no_shadow(input);
     } else {
-        const Part& placement = recipe.placement_for(input.light().shape);
-        LightViews views = placement.place(input, recipe);
-        views.part = &placement;
+        const LightViews views = place_views(input, recipe);
         ShadowMap map = recipe.map->add_map(input, recipe, views);
         map.part = recipe.map;
         visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)

@@ -2,6 +2,7 @@
 // What the tests of warped placements share: placing without a GPU's samples, and measuring texels on the CPU.
 #pragma once
 
+#include "shadow/placement/place.h"
 #include "shadow/placement/receivers.h"
 #include "tests/rig.h"
 
@@ -15,8 +16,7 @@ inline LightViews place(const Scene& scene, const std::string& text, uint width 
     const ViewSamples samples{
         .width = width, .height = height, .camera = camera != nullptr ? *camera : scene.cameras.front()};
     const FrameInput input{device(), graph, scene, handles, samples, nullptr, 0};
-    const Recipe recipe = load_recipe(text);
-    return recipe.placement_for(scene.lights.front().shape).place(input, recipe);
+    return place_views(input, load_recipe(text));
 }
 
 /// A floor, a thin slab from z = -near to -far under a camera that looks along it, and the sun from `to_light`.

@@ -3,20 +3,18 @@
 #include "shadow/lookup/show.h"
 
 #include "shadow/history.h"
-#include "shadow/lookup/sample_pass.h"
 #include "shadow/lookup/show_passes.h"
+#include "shadow/placement/place.h"
 #include "shadow/view/read_back.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gn {
 namespace {
 
 constexpr const char* output_text = R"(
-layout(binding = 4, rgba32f) uniform writeonly image2D show_choice;
-layout(binding = 5, rgba32f) uniform writeonly image2D show_sizes;
-
 // Texels per pixel, bias in metres, whether the view holds the receiver.
 vec3 sizes_in(GnReceiver receiver, int index) {
     GnProjected moved = gn_project(receiver, views[index], u.bias);
@@ -41,25 +39,10 @@ void main() {
         }
         shown = vec4(choice.first, choice.second, choice.second >= 0 ? choice.weight : 0.0, sizes.z);
     }
-    imageStore(show_choice, pixel, shown);
-    imageStore(show_sizes, pixel, vec4(sizes.xy, 0.0, sizes.z));
+    imageStore(first, pixel, shown);
+    imageStore(second, pixel, vec4(sizes.xy, 0.0, sizes.z));
 }
 )";
-
-ComputeDesc figures_shader(const Recipe& recipe, const LightViews& views) {
-    const Part& placement = *views.part;
-    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
-                             include_line(placement.glsl) + include_line("shadow/lookup/show.glsl") +
-                             sample_bindings("GnBias no_bias;") + sample_functions(placement) + output_text;
-    return {{ShaderKind::compute, fmt::format("show {}", placement.id), text}, {}};
-}
-
-TextureHandle create_figures(const FrameInput& input, std::string name) {
-    return input.graph.create({.name = std::move(name),
-                               .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                               .width = input.samples.width,
-                               .height = input.samples.height});
-}
 
 /// How much of the view sees the surface's front: 1 face to face, less where it is slanted.
 std::vector<float> shade_of(const CpuSamples& samples) {
@@ -97,9 +80,7 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
 
     // The stages before the lookup, as in a frame.
     check_recipe(recipe, input.scene, input.light(), input.device);
-    const Part& placement = recipe.placement_for(input.light().shape);
-    built.views = placement.place(input, recipe);
-    built.views.part = &placement;
+    built.views = place_views(input, recipe);
     if (asked(names, "map")) {
         built.map = recipe.map->add_map(input, recipe, built.views);
         built.map_tiles = add_layer_tiles(input, built.map.texture);
@@ -143,29 +124,11 @@ const HiddenPicture& find_hidden(std::string_view name) {
 }
 
 SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
-    const SampleFigures figures{create_figures(input, "shown views"), create_figures(input, "shown sizes")};
-
     // A bias of nothing follows the recipe's own.
-    std::vector<std::byte> bytes = sample_constants(input, recipe);
-    bytes.resize(bytes.size() + sizeof(GnBias), std::byte{0});
-
-    const ViewSamples& samples = input.samples;
-    input.graph.add_pass(
-        "show",
-        [&](PassBuilder& pass) {
-            declare_samples(pass, samples, views);
-            pass.storage_write(figures.choice);
-            pass.storage_write(figures.sizes);
-        },
-        [shader = figures_shader(recipe, views), bytes, samples, views, figures](Recorder& r) {
-            r.bind(shader);
-            set_samples(r, samples, views);
-            r.set_storage("show_choice", figures.choice);
-            r.set_storage("show_sizes", figures.sizes);
-            r.set_bytes("u", bytes);
-            r.dispatch_pixels(samples.width, samples.height);
-        });
-    return figures;
+    const std::array<std::byte, sizeof(GnBias)> no_bias{};
+    const SampleImages images = add_sample_pass(
+        input, recipe, views, {"show", "shown views", "shown sizes", "GnBias no_bias;", output_text}, no_bias);
+    return {images.first, images.second};
 }
 
 std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,

@@ -13,6 +13,21 @@ struct SampleFigures {
 };
 SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
+/// Two RGBA32F images of the view's size, `first` and `second` in the shader, that `text` (declarations and main) writes for
+/// every view sample; it may call shadow/lookup/show.glsl and reads u.view, u.light, u.bias and the given member of u.
+struct SampleImages {
+    TextureHandle first, second;
+};
+struct SamplePass {
+    const char* name;
+    const char* first_name;
+    const char* second_name;
+    const char* member;  ///< "float pixels;"
+    const char* text;
+};
+SampleImages add_sample_pass(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                             const SamplePass& pass, std::span<const std::byte> member);
+
 /// The layers of a 2D array side by side, each reduced to at most `side` texels, RGBA32F.
 struct LayerTiles {
     TextureHandle image;

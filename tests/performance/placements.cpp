@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Placements over others of as many texels, and kept maps over redrawn ones.
 #include "shadow/history.h"
+#include "shadow/placement/place.h"
 #include "tests/performance/bench.h"
 
 namespace gn::performance {
@@ -24,7 +25,7 @@ void main() { gl_Position = push.cs_from_ws * vec4(in_position_ws, 1.0); }
     const SceneHandles handles = import_scene(graph, gpu);
     const ViewSamples samples = {.width = width, .height = height, .camera = gpu.scene->cameras[0]};
     const FrameInput input{bench.device(), graph, *gpu.scene, handles, samples};
-    const LightViews views = recipe.placement_for(input.light().shape).place(input, recipe);
+    const LightViews views = place_views(input, recipe);
     const TextureHandle target = graph.create(
         {.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .width = views.resolution, .height = views.resolution});
     graph.keep(target);

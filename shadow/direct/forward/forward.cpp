@@ -9,6 +9,7 @@
 #include "shadow/direct/forward/forward_passes.h"
 
 #include "shadow/map/raster.h"
+#include "shadow/placement/place.h"
 
 namespace gn {
 namespace {
@@ -17,9 +18,7 @@ Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnForwardParams>("forward");
 
     // See the scene from the light.
-    const Part& placement = recipe.placement_for(input.light().shape);
-    LightViews views = placement.place(input, recipe);
-    views.part = &placement;
+    const LightViews views = place_views(input, recipe);
     const TextureHandle depth = input.graph.create(TextureDesc{.name = "map",
                                                                .format = VK_FORMAT_D32_SFLOAT,
                                                                .width = views.resolution,
