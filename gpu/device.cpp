@@ -161,7 +161,7 @@ class VulkanDevice final : public Device {
         GN_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
         const std::filesystem::path cache = cache_root().empty() ? std::filesystem::path() : cache_root() / "shaders";
         shaders_ = std::make_unique<ShaderCompiler>(data_root(), cache);
-        memory_ = std::make_unique<MemoryPool>(candidate_.physical, device_);
+        memory_ = std::make_unique<MemoryPool>(candidate_.physical, device_, counters().allocations);
         pipelines_ = std::make_unique<PipelineCache>(*this);
     }
 

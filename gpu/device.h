@@ -64,6 +64,13 @@ struct AdoptedDevice {
     std::vector<Feature> enabled{};  ///< optional features that the host enabled; Vulkan cannot be asked
 };
 
+/// How many objects were made since the device was; a steady frame makes none.
+struct Counters {
+    std::uint64_t pipelines = 0, samplers = 0, images = 0, buffers = 0, views = 0, allocations = 0;
+    std::uint64_t pools = 0;  ///< of commands and queries
+    bool operator==(const Counters&) const = default;
+};
+
 class Device {
   public:
     static std::unique_ptr<Device> create(const DeviceOptions& options = {});
@@ -85,10 +92,15 @@ class Device {
     [[nodiscard]] virtual PipelineCache& pipelines() = 0;
     [[nodiscard]] virtual MemoryPool& memory() = 0;
 
+    [[nodiscard]] Counters& counters() { return counters_; }
+
     /// Records with `record`, submits, waits. Throws Error on a lost device.
     virtual void run(const std::function<void(VkCommandBuffer)>& record) = 0;
     /// Validation messages (errors and warnings, performance hints filtered) since the device was made.
     [[nodiscard]] virtual const std::vector<std::string>& messages() const = 0;
+
+  private:
+    Counters counters_;
 };
 
 /// A line per physical device, and for the one that would be picked its features, formats, limits and what they rule

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/frame_graph.h"
 
+#include "gpu/frames.h"
+#include "gpu/graph_account.h"
 #include "gpu/graph_builder.h"
 #include "gpu/graph_executor.h"
 #include "gpu/graph_plan.h"
@@ -14,7 +16,7 @@ struct FrameGraph::Impl {
     Device& device;
     GraphDeclaration declaration;
     Imports imports;
-    std::vector<GraphExecutor::Execute> executes;
+    std::vector<Execute> executes;
     std::string group;
 
     GraphPlan plan;
@@ -78,28 +80,6 @@ struct FrameGraph::Impl {
                 held[s] = held[s] == plan.final_layouts[i][s] ? held[s] : VK_IMAGE_LAYOUT_UNDEFINED;
             }
         }
-    }
-
-    void account(const std::vector<double>& ms) {
-        statistics = {};
-        for (std::size_t i = 0; i < plan.passes.size(); ++i) {
-            const DeclaredPass& pass = declaration.passes[plan.passes[i].declared];
-            statistics.passes.push_back({pass.name, pass.group, i < ms.size() ? ms[i] : 0.0});
-        }
-        for (std::size_t i = 0; i < declaration.textures.size(); ++i) {
-            const DeclaredTexture& texture = declaration.textures[i];
-            if (plan.textures[i].used) {
-                statistics.resources.push_back(
-                    {texture.desc.name, texture.group, texel_bytes(texture.desc), !texture.imported});
-            }
-        }
-        for (std::size_t i = 0; i < declaration.buffers.size(); ++i) {
-            const DeclaredBuffer& buffer = declaration.buffers[i];
-            if (plan.buffers[i].used) {
-                statistics.resources.push_back({buffer.desc.name, buffer.group, buffer.desc.bytes, !buffer.imported});
-            }
-        }
-        statistics.transient_bytes = plan.transient_bytes();
     }
 };
 
@@ -194,7 +174,7 @@ void FrameGraph::execute(bool timed) {
     Impl& impl = *impl_;
     impl.prepare();
     if (impl.is_null()) {
-        impl.account({});
+        impl.statistics = account(impl.declaration, impl.plan, {});
         return;
     }
     if (!impl.executor) {
@@ -210,7 +190,18 @@ void FrameGraph::execute(bool timed) {
     }
     impl.keep_layouts();
     impl.executed = true;
-    impl.account(ms);
+    impl.statistics = account(impl.declaration, impl.plan, ms);
+}
+
+void FrameGraph::record(Frames& frames, VkCommandBuffer commands) {
+    Impl& impl = *impl_;
+    impl.refresh_imports();
+    const auto& layouts = frames.write(impl.declaration, impl.imports, impl.executes, commands);
+    for (std::size_t i = 0; i < impl.imports.textures.size(); ++i) {
+        if (impl.imports.textures[i] != nullptr) {
+            impl.imports.textures[i]->layouts = layouts[i];
+        }
+    }
 }
 
 const GraphStatistics& FrameGraph::statistics() const {

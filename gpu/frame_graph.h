@@ -162,6 +162,7 @@ struct GraphStatistics {
 };
 
 struct GraphPlan;
+class Frames;
 
 class FrameGraph {
   public:
@@ -190,6 +191,10 @@ class FrameGraph {
     /// Culls, orders by declaration, places memory, records, submits and waits. May be called again: the same graph
     /// is then run once more. Throws Error on out-of-memory or a lost device.
     void execute(bool timed = true);
+    /// Records the frame into a command buffer of the caller's: plan and memory come from `frames`, in its slot in hand.
+    /// Neither submits nor waits; imported textures are left in the layouts that they say afterwards. What is imported
+    /// must live until the slot is taken up again. Throws Error.
+    void record(Frames& frames, VkCommandBuffer commands);
     [[nodiscard]] const GraphStatistics& statistics() const;
     /// Contents after execute of a kept transient or an imported resource, rows tightly packed.
     std::vector<std::byte> download(TextureHandle texture, std::uint32_t mip = 0, std::uint32_t layer = 0);

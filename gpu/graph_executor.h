@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Runs a plan on a Vulkan device, and times it.
+// Runs a plan on a Vulkan device at once and waits for it: what measuring and reading back need.
 #pragma once
 
-#include "gpu/recorder.h"
+#include "gpu/pass_writer.h"
 
 namespace gn {
 
@@ -13,7 +13,6 @@ class GraphExecutor {
     GraphExecutor(const GraphExecutor&) = delete;
     GraphExecutor& operator=(const GraphExecutor&) = delete;
 
-    using Execute = std::function<void(Recorder&)>;
     /// Records, submits and waits. Milliseconds per planned pass where timed, else zeros. On a CPU device a timed pass
     /// is a submit of its own, measured by the host's clock; on a GPU timestamps bracket it.
     std::vector<double> run(const GraphDeclaration& declaration, const GraphPlan& plan, GraphResources& resources,
@@ -22,25 +21,16 @@ class GraphExecutor {
   private:
     void begin();
     void end_and_wait();
-    void record(const GraphDeclaration& declaration, const PlannedPass& planned, GraphResources& resources,
-                GraphRecorder& recorder, const Execute& execute);
-    void barriers(const GraphDeclaration& declaration, const PlannedPass& planned, GraphResources& resources) const;
-    void label(const std::string& name) const;
-    std::vector<double> run_apart(const GraphDeclaration& declaration, const GraphPlan& plan, GraphResources& resources,
-                                  const std::vector<Execute>& executes, GraphRecorder& recorder);
-    std::vector<double> run_together(const GraphDeclaration& declaration, const GraphPlan& plan,
-                                     GraphResources& resources, const std::vector<Execute>& executes,
-                                     GraphRecorder& recorder, bool timestamps);
+    std::vector<double> run_apart(const GraphPlan& plan, const std::vector<Execute>& executes, PassWriter& writer);
+    std::vector<double> run_together(const GraphPlan& plan, const std::vector<Execute>& executes, PassWriter& writer,
+                                     bool timestamps);
 
     Device& device_;
     UploadArena arena_;
+    PassTimestamps timestamps_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
-    std::uint32_t query_count_ = 0;
-    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
-    PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 };
 
 }  // namespace gn

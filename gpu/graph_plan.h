@@ -5,6 +5,7 @@
 #pragma once
 
 #include "gpu/frame_graph.h"
+#include "gpu/hash.h"
 
 #include <optional>
 #include <string>
@@ -141,6 +142,9 @@ void synchronize(const GraphDeclaration& declaration, GraphPlan& plan);
 
 /// All of the above. Throws Error for a pass that reads what nobody wrote.
 GraphPlan make_plan(const GraphDeclaration& declaration, const Footprints& footprints);
+/// What a plan depends on: equal declarations, equal fingerprints. Names, and the layouts that imports come in, are left
+/// out; the latter change barriers alone (synchronize).
+Fingerprint fingerprint(const GraphDeclaration& declaration);
 /// Passes, ports, barriers and placements as text.
 std::string describe(const GraphDeclaration& declaration, const GraphPlan& plan);
 

@@ -30,6 +30,7 @@ constexpr VkBufferUsageFlags transient_buffer_usage =
 GraphResources::GraphResources(Device& device, const GraphDeclaration& declaration, const Imports& imports)
     : device_(device),
       declaration_(declaration),
+      imports_(imports),
       images_(declaration.textures.size()),
       buffers_(declaration.buffers.size()),
       own_image_(images_.size()),
@@ -45,17 +46,14 @@ GraphResources::GraphResources(Device& device, const GraphDeclaration& declarati
         }
     }
     try {
+        rebind(imports);
         for (std::uint32_t i = 0; i < images_.size(); ++i) {
-            if (imports.textures[i] != nullptr) {
-                images_[i] = imports.textures[i]->vk();
-            } else if (textures[i]) {
+            if (imports.textures[i] == nullptr && textures[i]) {
                 make_texture(i);
             }
         }
         for (std::uint32_t i = 0; i < buffers_.size(); ++i) {
-            if (imports.buffers[i] != nullptr) {
-                buffers_[i] = imports.buffers[i]->vk();
-            } else if (buffers[i]) {
+            if (imports.buffers[i] == nullptr && buffers[i]) {
                 make_buffer(i);
             }
         }
@@ -67,6 +65,16 @@ GraphResources::GraphResources(Device& device, const GraphDeclaration& declarati
 
 GraphResources::~GraphResources() {
     destroy();
+}
+
+void GraphResources::rebind(const Imports& imports) {
+    imports_ = imports;
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        images_[i] = imports.textures[i] != nullptr ? imports.textures[i]->vk() : images_[i];
+    }
+    for (std::size_t i = 0; i < buffers_.size(); ++i) {
+        buffers_[i] = imports.buffers[i] != nullptr ? imports.buffers[i]->vk() : buffers_[i];
+    }
 }
 
 void GraphResources::destroy() {
@@ -114,6 +122,7 @@ void GraphResources::make_buffer(std::uint32_t index) {
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = desc.usage | transient_buffer_usage};
     GN_VK(vkCreateBuffer(device_.vk(), &info, nullptr, &buffers_[index]));
+    ++device_.counters().buffers;
     own_buffer_[index] = true;
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device_.vk(), buffers_[index], &needs);
@@ -145,6 +154,10 @@ void GraphResources::bind_memory(const GraphPlan& plan) {
 
 VkImageView GraphResources::view(std::uint32_t texture, const Range& range, VkImageViewType type,
                                  VkImageAspectFlags aspects) {
+    const VkImageSubresourceRange part{aspects, range.mip, range.mips, range.layer, range.layers};
+    if (imports_.textures[texture] != nullptr) {
+        return imports_.textures[texture]->view(type, part);
+    }
     const Fingerprint key = Hasher()
                                 .value(texture)
                                 .value(range.mip)
@@ -157,15 +170,8 @@ VkImageView GraphResources::view(std::uint32_t texture, const Range& range, VkIm
     if (const auto found = views_.find(key); found != views_.end()) {
         return found->second;
     }
-    const VkImageViewCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = images_[texture],
-        .viewType = type,
-        .format = declaration_.textures[texture].desc.format,
-        .subresourceRange = {aspects, range.mip, range.mips, range.layer, range.layers},
-    };
-    VkImageView view = VK_NULL_HANDLE;
-    GN_VK(vkCreateImageView(device_.vk(), &info, nullptr, &view));
+    const VkImageView view =
+        create_view(device_, images_[texture], declaration_.textures[texture].desc.format, type, part);
     views_.emplace(key, view);
     return view;
 }

@@ -24,6 +24,8 @@ class GraphResources {
     GraphResources& operator=(const GraphResources&) = delete;
 
     [[nodiscard]] const Footprints& footprints() const { return footprints_; }
+    /// Takes other imports of the same descriptions, as a history that swaps its textures gives.
+    void rebind(const Imports& imports);
     /// Binds everything to the plan's heaps.
     void bind_memory(const GraphPlan& plan);
 
@@ -39,6 +41,7 @@ class GraphResources {
 
     Device& device_;
     const GraphDeclaration& declaration_;
+    Imports imports_;
     std::vector<VkImage> images_;
     std::vector<VkBuffer> buffers_;
     std::vector<bool> own_image_, own_buffer_;

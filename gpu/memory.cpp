@@ -96,6 +96,7 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(&device), desc_
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = desc_.bytes, .usage = desc_.usage};
     GN_VK(vkCreateBuffer(device.vk(), &info, nullptr, &buffer_));
+    ++device.counters().buffers;
     try {
         VkMemoryRequirements needs{};
         vkGetBufferMemoryRequirements(device.vk(), buffer_, &needs);
@@ -108,6 +109,14 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(&device), desc_
     }
 }
 
+Buffer Buffer::borrow(const BufferDesc& desc, VkBuffer buffer) {
+    Buffer borrowed;
+    borrowed.desc_ = desc;
+    borrowed.buffer_ = buffer;
+    borrowed.borrowed_ = true;
+    return borrowed;
+}
+
 Buffer::Buffer(Buffer&& other) noexcept {
     *this = std::move(other);
 }
@@ -116,12 +125,13 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(desc_, other.desc_);
     std::swap(buffer_, other.buffer_);
+    std::swap(borrowed_, other.borrowed_);
     std::swap(memory_, other.memory_);
     return *this;
 }
 
 Buffer::~Buffer() {
-    if (buffer_ != VK_NULL_HANDLE) {
+    if (buffer_ != VK_NULL_HANDLE && !borrowed_) {
         vkDestroyBuffer(device_->vk(), buffer_, nullptr);
         device_->memory().release(memory_);
     }
@@ -173,6 +183,7 @@ VkImage create_image(Device& device, const TextureDesc& desc) {
     check_texture(device, desc, info);
     VkImage image = VK_NULL_HANDLE;
     GN_VK(vkCreateImage(device.vk(), &info, nullptr, &image));
+    ++device.counters().images;
     return image;
 }
 
@@ -191,6 +202,42 @@ Texture2D::Texture2D(Device& device, const TextureDesc& desc) : device_(&device)
     }
 }
 
+Texture2D Texture2D::borrow(Device& device, const TextureDesc& desc, VkImage image, VkImageLayout layout) {
+    Texture2D borrowed;
+    borrowed.device_ = &device;
+    borrowed.desc_ = desc;
+    borrowed.image_ = image;
+    borrowed.borrowed_ = true;
+    borrowed.layouts.assign(std::size_t{desc.mips} * desc.layers, layout);
+    return borrowed;
+}
+
+VkImageView create_view(Device& device, VkImage image, VkFormat format, VkImageViewType type,
+                        const VkImageSubresourceRange& range) {
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image,
+                                     .viewType = type,
+                                     .format = format,
+                                     .subresourceRange = range};
+    VkImageView view = VK_NULL_HANDLE;
+    GN_VK(vkCreateImageView(device.vk(), &info, nullptr, &view));
+    ++device.counters().views;
+    return view;
+}
+
+VkImageView Texture2D::view(VkImageViewType type, const VkImageSubresourceRange& range) {
+    const auto found = std::find_if(views_.begin(), views_.end(), [&](const View& held) {
+        return held.type == type && held.range.aspectMask == range.aspectMask &&
+               held.range.baseMipLevel == range.baseMipLevel && held.range.levelCount == range.levelCount &&
+               held.range.baseArrayLayer == range.baseArrayLayer && held.range.layerCount == range.layerCount;
+    });
+    if (found != views_.end()) {
+        return found->vk;
+    }
+    views_.push_back({type, range, create_view(*device_, image_, desc_.format, type, range)});
+    return views_.back().vk;
+}
+
 Texture2D::Texture2D(Texture2D&& other) noexcept {
     *this = std::move(other);
 }
@@ -200,12 +247,17 @@ Texture2D& Texture2D::operator=(Texture2D&& other) noexcept {
     std::swap(desc_, other.desc_);
     std::swap(image_, other.image_);
     std::swap(memory_, other.memory_);
+    std::swap(borrowed_, other.borrowed_);
+    std::swap(views_, other.views_);
     std::swap(layouts, other.layouts);
     return *this;
 }
 
 Texture2D::~Texture2D() {
-    if (image_ != VK_NULL_HANDLE) {
+    for (const View& held : views_) {
+        vkDestroyImageView(device_->vk(), held.vk, nullptr);
+    }
+    if (image_ != VK_NULL_HANDLE && !borrowed_) {
         vkDestroyImage(device_->vk(), image_, nullptr);
         device_->memory().release(memory_);
     }

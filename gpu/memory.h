@@ -39,6 +39,8 @@ class Buffer {
   public:
     Buffer() = default;
     Buffer(Device& device, const BufferDesc& desc);
+    /// A buffer of somebody else's, which must outlive this value.
+    static Buffer borrow(const BufferDesc& desc, VkBuffer buffer);
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
     ~Buffer();
@@ -50,6 +52,7 @@ class Buffer {
     Device* device_ = nullptr;
     BufferDesc desc_;
     VkBuffer buffer_ = VK_NULL_HANDLE;
+    bool borrowed_ = false;
     MemorySlice memory_;
 };
 
@@ -57,11 +60,15 @@ class Texture2D {
   public:
     Texture2D() = default;
     Texture2D(Device& device, const TextureDesc& desc);
+    /// An image of somebody else's, all of it in `layout`; it must outlive this value, which owns only its views.
+    static Texture2D borrow(Device& device, const TextureDesc& desc, VkImage image, VkImageLayout layout);
     Texture2D(Texture2D&& other) noexcept;
     Texture2D& operator=(Texture2D&& other) noexcept;
     ~Texture2D();
     [[nodiscard]] VkImage vk() const { return image_; }
     [[nodiscard]] const TextureDesc& desc() const { return desc_; }
+    /// Made once per type and range; lives as long as the texture.
+    VkImageView view(VkImageViewType type, const VkImageSubresourceRange& range);
     /// Layout per subresource (mip + layer * mips) between frames; kept by the graph.
     std::vector<VkImageLayout> layouts;
 
@@ -69,8 +76,19 @@ class Texture2D {
     Device* device_ = nullptr;
     TextureDesc desc_;
     VkImage image_ = VK_NULL_HANDLE;
+    bool borrowed_ = false;
     MemorySlice memory_;
+    struct View {
+        VkImageViewType type;
+        VkImageSubresourceRange range;
+        VkImageView vk;
+    };
+    std::vector<View> views_;
 };
+
+/// A view of an image. Throws Error.
+VkImageView create_view(Device& device, VkImage image, VkFormat format, VkImageViewType type,
+                        const VkImageSubresourceRange& range);
 
 /// A buffer with `data` in it (device local on a GPU, through staging).
 Buffer upload_buffer(Device& device, const BufferDesc& desc, std::span<const std::byte> data);

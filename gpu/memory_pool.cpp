@@ -49,7 +49,8 @@ void FreeList::give(VkDeviceSize offset, VkDeviceSize bytes) {
     }
 }
 
-MemoryPool::MemoryPool(VkPhysicalDevice physical, VkDevice device) : device_(device) {
+MemoryPool::MemoryPool(VkPhysicalDevice physical, VkDevice device, std::uint64_t& allocations)
+    : device_(device), allocations_(allocations) {
     vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
     VkPhysicalDeviceMaintenance3Properties limits{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits};
@@ -90,6 +91,7 @@ VkDeviceMemory MemoryPool::allocate_whole(VkDeviceSize bytes, std::uint32_t type
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = bytes, .memoryTypeIndex = type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
+    ++allocations_;
     VkResult result = vkAllocateMemory(device_, &info, nullptr, &memory);
 
     // Give back what is only kept for later before giving up.

@@ -48,7 +48,8 @@ class FreeList {
 
 class MemoryPool {
   public:
-    MemoryPool(VkPhysicalDevice physical, VkDevice device);
+    /// `allocations` counts what the driver was asked for.
+    MemoryPool(VkPhysicalDevice physical, VkDevice device, std::uint64_t& allocations);
     ~MemoryPool();
     MemoryPool(const MemoryPool&) = delete;
     MemoryPool& operator=(const MemoryPool&) = delete;
@@ -76,6 +77,7 @@ class MemoryPool {
     std::byte* map(VkDeviceMemory memory);
 
     VkDevice device_;
+    std::uint64_t& allocations_;
     VkPhysicalDeviceMemoryProperties properties_{};
     VkDeviceSize largest_ = 0;
     std::vector<std::unique_ptr<Chunk>> chunks_;

@@ -212,6 +212,7 @@ const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
     GN_VK(vkCreateComputePipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    ++device_.counters().pipelines;
     return pipelines_.emplace(key, std::move(pipeline)).first->second;
 }
 
@@ -253,6 +254,7 @@ const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentForma
                                             .pDynamicState = &fixed.dynamic,
                                             .layout = pipeline.layout};
     GN_VK(vkCreateGraphicsPipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    ++device_.counters().pipelines;
     return pipelines_.emplace(key, std::move(pipeline)).first->second;
 }
 
@@ -288,6 +290,7 @@ VkSampler PipelineCache::sampler(const SamplerDesc& desc) {
     };
     VkSampler sampler = VK_NULL_HANDLE;
     GN_VK(vkCreateSampler(device_.vk(), &info, nullptr, &sampler));
+    ++device_.counters().samplers;
     samplers_.emplace(key, sampler);
     return sampler;
 }

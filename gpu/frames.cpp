@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/frames.h"
+
+#include "gpu/graph_account.h"
+#include "gpu/pass_writer.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+constexpr std::uint32_t most_in_flight = 8;
+/// A plan that no frame asked for in so many frames gives its memory back: the picture was resized, the recipe changed.
+constexpr std::uint64_t frames_unused = 64;
+/// A host that alternates between more pictures than this makes them anew.
+constexpr std::size_t most_plans = 8;
+
+/// A declaration that was seen, with all that it needs on the device.
+struct Planned {
+    Fingerprint key;
+    GraphDeclaration declaration;  ///< as first seen; what resources look into
+    GraphPlan plan;
+    std::unique_ptr<GraphResources> resources;
+    GraphStatistics statistics;
+    std::uint64_t last_used = 0;
+};
+
+struct Slot {
+    explicit Slot(Device& device) : arena(device), timestamps(device) {}
+    UploadArena arena;
+    PassTimestamps timestamps;
+    std::vector<std::shared_ptr<void>> retired;
+    std::shared_ptr<Planned> recorded;  ///< what was recorded last
+    GraphStatistics completed;
+};
+
+bool same_layouts(const GraphDeclaration& a, const GraphDeclaration& b) {
+    return std::equal(a.textures.begin(), a.textures.end(), b.textures.begin(), b.textures.end(),
+                      [](const DeclaredTexture& x, const DeclaredTexture& y) { return x.initial == y.initial; });
+}
+
+}  // namespace
+
+struct Frames::Impl {
+    Device& device;
+    std::vector<std::unique_ptr<Slot>> slots;
+    std::vector<std::shared_ptr<Planned>> plans;
+    std::uint32_t slot = 0;
+    std::uint64_t frame = 0;
+
+    std::shared_ptr<Planned> planned_for(const GraphDeclaration& declaration, const Imports& imports) {
+        const Fingerprint key = fingerprint(declaration);
+        const auto found = std::find_if(plans.begin(), plans.end(), [&](const auto& held) { return held->key == key; });
+        std::shared_ptr<Planned> planned = found != plans.end() ? *found : make(key, declaration, imports);
+        planned->last_used = frame;
+        planned->resources->rebind(imports);
+        if (!same_layouts(planned->declaration, declaration)) {
+            for (std::size_t i = 0; i < declaration.textures.size(); ++i) {
+                planned->declaration.textures[i].initial = declaration.textures[i].initial;
+            }
+            synchronize(planned->declaration, planned->plan);
+        }
+        return planned;
+    }
+
+    std::shared_ptr<Planned> make(const Fingerprint& key, const GraphDeclaration& declaration, const Imports& imports) {
+        auto planned = std::make_shared<Planned>();
+        planned->key = key;
+        planned->declaration = declaration;
+        planned->resources = std::make_unique<GraphResources>(device, planned->declaration, imports);
+        planned->plan = make_plan(planned->declaration, planned->resources->footprints());
+        planned->resources->bind_memory(planned->plan);
+        planned->statistics = account(planned->declaration, planned->plan, {});
+        plans.push_back(planned);
+        return planned;
+    }
+
+    /// Plans of pictures that are no longer drawn retire: frames in flight may still use their memory.
+    void retire_unused() {
+        std::sort(plans.begin(), plans.end(),
+                  [](const auto& a, const auto& b) { return a->last_used > b->last_used; });
+        while (!plans.empty() && (plans.size() > most_plans || plans.back()->last_used + frames_unused < frame)) {
+            slots[slot]->retired.push_back(std::move(plans.back()));
+            plans.pop_back();
+        }
+    }
+};
+
+Frames::Frames(Device& device, std::uint32_t in_flight) : impl_(new Impl{.device = device}) {
+    if (in_flight < 1 || in_flight > most_in_flight) {
+        fail("{} frames in flight; valid is 1 to {}", in_flight, most_in_flight);
+    }
+    for (std::uint32_t i = 0; i < in_flight; ++i) {
+        impl_->slots.push_back(std::make_unique<Slot>(device));
+    }
+}
+
+Frames::~Frames() = default;
+
+std::uint32_t Frames::in_flight() const {
+    return static_cast<std::uint32_t>(impl_->slots.size());
+}
+
+void Frames::begin(std::uint32_t slot) {
+    if (slot >= impl_->slots.size()) {
+        fail("frame slot {} of {}; valid is 0 to {}", slot, impl_->slots.size(), impl_->slots.size() - 1);
+    }
+    impl_->slot = slot;
+    ++impl_->frame;
+    Slot& held = *impl_->slots[slot];
+    const std::vector<double> ms = held.timestamps.read(false);
+    if (held.recorded != nullptr) {
+        held.completed = held.recorded->statistics;
+        held.recorded.reset();
+    }
+    for (std::size_t i = 0; i < ms.size() && i < held.completed.passes.size(); ++i) {
+        held.completed.passes[i].ms = ms[i];
+    }
+    held.retired.clear();
+    held.arena.reset();
+    impl_->retire_unused();
+}
+
+void Frames::retire(std::shared_ptr<void> object) {
+    impl_->slots[impl_->slot]->retired.push_back(std::move(object));
+}
+
+const GraphStatistics& Frames::completed(std::uint32_t slot) const {
+    GN_CHECK(slot < impl_->slots.size());
+    return impl_->slots[slot]->completed;
+}
+
+std::size_t Frames::plans() const {
+    return impl_->plans.size();
+}
+
+const std::vector<std::vector<VkImageLayout>>& Frames::write(const GraphDeclaration& declaration,
+                                                             const Imports& imports,
+                                                             const std::vector<std::function<void(Recorder&)>>& executes,
+                                                             VkCommandBuffer commands) {
+    const std::shared_ptr<Planned> held = impl_->planned_for(declaration, imports);
+    Planned& planned = *held;
+    Slot& slot = *impl_->slots[impl_->slot];
+    const bool stamps = impl_->device.has(Feature::timestamps);
+    PassWriter writer(impl_->device, declaration, *planned.resources, slot.arena);
+
+    // Frames share their transients, so that each begins after all that was recorded before.
+    global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    if (stamps) {
+        slot.timestamps.begin(commands, static_cast<std::uint32_t>(planned.plan.passes.size()));
+    }
+    for (const PlannedPass& pass : planned.plan.passes) {
+        if (stamps) {
+            slot.timestamps.stamp(commands);
+        }
+        writer.write(commands, pass, executes[pass.declared]);
+        if (stamps) {
+            slot.timestamps.stamp(commands);
+        }
+    }
+    slot.recorded = held;
+    return planned.plan.final_layouts;
+}
+
+}  // namespace gn
