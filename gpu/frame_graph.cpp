@@ -17,6 +17,7 @@ struct FrameGraph::Impl {
     GraphDeclaration declaration;
     Imports imports;
     std::vector<Execute> executes;
+    std::vector<Answer> answers;
     std::string group;
 
     GraphPlan plan;
@@ -170,6 +171,11 @@ void FrameGraph::keep(BufferHandle buffer) {
     impl_->stale = true;
 }
 
+void FrameGraph::answer(BufferHandle buffer, std::function<void(std::span<const std::byte>)> receive) {
+    keep(buffer);
+    impl_->answers.push_back({buffer.index, std::move(receive)});
+}
+
 void FrameGraph::execute(bool timed) {
     Impl& impl = *impl_;
     impl.prepare();
@@ -191,12 +197,17 @@ void FrameGraph::execute(bool timed) {
     impl.keep_layouts();
     impl.executed = true;
     impl.statistics = account(impl.declaration, impl.plan, ms);
+    for (const Answer& answer : impl.answers) {
+        if (impl.plan.buffers[answer.buffer].used) {
+            answer.receive(download(BufferHandle{answer.buffer}));
+        }
+    }
 }
 
 void FrameGraph::record(Frames& frames, VkCommandBuffer commands) {
     Impl& impl = *impl_;
     impl.refresh_imports();
-    const auto& layouts = frames.write(impl.declaration, impl.imports, impl.executes, commands);
+    const auto& layouts = frames.write(impl.declaration, impl.imports, impl.executes, impl.answers, commands);
     for (std::size_t i = 0; i < impl.imports.textures.size(); ++i) {
         if (impl.imports.textures[i] != nullptr) {
             impl.imports.textures[i]->layouts = layouts[i];

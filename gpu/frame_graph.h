@@ -187,6 +187,9 @@ class FrameGraph {
     /// Keeps a transient's contents past execute, for download; its producers are not culled.
     void keep(TextureHandle texture);
     void keep(BufferHandle buffer);
+    /// Hands the buffer's final contents to `receive` without a stall: after execute, which waits anyway; after record,
+    /// when the frame's slot is taken up again, so a frame or more late. `receive` must not throw.
+    void answer(BufferHandle buffer, std::function<void(std::span<const std::byte>)> receive);
 
     /// Culls, orders by declaration, places memory, records, submits and waits. May be called again: the same graph
     /// is then run once more. Throws Error on out-of-memory or a lost device.

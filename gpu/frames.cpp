@@ -32,6 +32,11 @@ struct Slot {
     std::vector<std::shared_ptr<void>> retired;
     std::shared_ptr<Planned> recorded;  ///< what was recorded last
     GraphStatistics completed;
+    struct Waiting {
+        std::span<const std::byte> bytes;
+        std::function<void(std::span<const std::byte>)> receive;
+    };
+    std::vector<Waiting> waiting;  ///< for answers that the device writes into the arena
 };
 
 bool same_layouts(const GraphDeclaration& a, const GraphDeclaration& b) {
@@ -77,8 +82,7 @@ struct Frames::Impl {
 
     /// Plans of pictures that are no longer drawn retire: frames in flight may still use their memory.
     void retire_unused() {
-        std::sort(plans.begin(), plans.end(),
-                  [](const auto& a, const auto& b) { return a->last_used > b->last_used; });
+        std::sort(plans.begin(), plans.end(), [](const auto& a, const auto& b) { return a->last_used > b->last_used; });
         while (!plans.empty() && (plans.size() > most_plans || plans.back()->last_used + frames_unused < frame)) {
             slots[slot]->retired.push_back(std::move(plans.back()));
             plans.pop_back();
@@ -116,6 +120,10 @@ void Frames::begin(std::uint32_t slot) {
     for (std::size_t i = 0; i < ms.size() && i < held.completed.passes.size(); ++i) {
         held.completed.passes[i].ms = ms[i];
     }
+    for (const Slot::Waiting& waiting : held.waiting) {
+        waiting.receive(waiting.bytes);
+    }
+    held.waiting.clear();
     held.retired.clear();
     held.arena.reset();
     impl_->retire_unused();
@@ -134,10 +142,34 @@ std::size_t Frames::plans() const {
     return impl_->plans.size();
 }
 
-const std::vector<std::vector<VkImageLayout>>& Frames::write(const GraphDeclaration& declaration,
-                                                             const Imports& imports,
-                                                             const std::vector<std::function<void(Recorder&)>>& executes,
-                                                             VkCommandBuffer commands) {
+namespace {
+
+/// Copies the answers to where the host will find them.
+void write_answers(const GraphDeclaration& declaration, const Planned& planned, const std::vector<Answer>& answers,
+                   Slot& slot, VkCommandBuffer commands) {
+    if (answers.empty()) {
+        return;
+    }
+    global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    for (const Answer& answer : answers) {
+        if (!planned.plan.buffers[answer.buffer].used) {
+            continue;
+        }
+        const VkDeviceSize bytes = declaration.buffers[answer.buffer].desc.bytes;
+        const UploadedBytes target = slot.arena.reserve(bytes);
+        const VkBufferCopy region{0, target.offset, bytes};
+        vkCmdCopyBuffer(commands, planned.resources->buffer(answer.buffer), target.buffer, 1, &region);
+        slot.waiting.push_back({{target.mapped, bytes}, answer.receive});
+    }
+    global_barrier(commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+}
+
+}  // namespace
+
+const std::vector<std::vector<VkImageLayout>>& Frames::write(
+    const GraphDeclaration& declaration, const Imports& imports,
+    const std::vector<std::function<void(Recorder&)>>& executes, const std::vector<Answer>& answers,
+    VkCommandBuffer commands) {
     const std::shared_ptr<Planned> held = impl_->planned_for(declaration, imports);
     Planned& planned = *held;
     Slot& slot = *impl_->slots[impl_->slot];
@@ -159,6 +191,7 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(const GraphDeclarat
             slot.timestamps.stamp(commands);
         }
     }
+    write_answers(declaration, planned, answers, slot, commands);
     slot.recorded = held;
     return planned.plan.final_layouts;
 }

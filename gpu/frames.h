@@ -22,6 +22,12 @@ namespace gn {
 struct GraphDeclaration;
 struct Imports;
 
+/// A buffer whose final contents somebody waits for.
+struct Answer {
+    std::uint32_t buffer = 0;  ///< index of the handle
+    std::function<void(std::span<const std::byte>)> receive;
+};
+
 class Frames {
   public:
     /// in_flight: slots, 1 to 8. Throws Error.
@@ -46,7 +52,7 @@ class Frames {
     /// For FrameGraph::record. Gives the layouts that all textures are left in.
     const std::vector<std::vector<VkImageLayout>>& write(const GraphDeclaration& declaration, const Imports& imports,
                                                          const std::vector<std::function<void(Recorder&)>>& executes,
-                                                         VkCommandBuffer commands);
+                                                         const std::vector<Answer>& answers, VkCommandBuffer commands);
 
   private:
     struct Impl;

@@ -201,6 +201,40 @@ TEST_F(InFlight, TheAccountOfASlotIsOfItsLastCompletedUse) {
     EXPECT_EQ(frames.completed(0).passes[1].name, "second");
 }
 
+// The device counts; the host hears of each frame's count when that frame's slot is taken up again, and waits for nothing.
+TEST_F(InFlight, AnswersComeWithTheirSlot) {
+    Frames frames(device, 2);
+    Host host(device, frames);
+    std::vector<std::uint32_t> heard;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        host.frame([&](VkCommandBuffer commands) {
+            FrameGraph graph(device);
+            const BufferHandle count = graph.create(BufferDesc{.name = "count", .bytes = 16});
+            graph.answer(count, [&](std::span<const std::byte> bytes) {
+                std::uint32_t word = 0;
+                std::memcpy(&word, bytes.data(), 4);
+                heard.push_back(word);
+            });
+            graph.add_pass(
+                "count", [&](PassBuilder& pass) { pass.copy_to(count); }, [=](Recorder& r) { r.fill(count, 10 + i); });
+            graph.record(frames, commands);
+        });
+        EXPECT_EQ(heard.size(), i < 2 ? 0U : i - 1U);
+    }
+    host.wait();
+    EXPECT_EQ(heard, (std::vector<std::uint32_t>{10, 11, 12, 13}));
+
+    // Executed at once, the answer is there at once.
+    FrameGraph graph(device);
+    const BufferHandle count = graph.create(BufferDesc{.name = "count", .bytes = 16});
+    bool answered = false;
+    graph.answer(count, [&](std::span<const std::byte>) { answered = true; });
+    graph.add_pass(
+        "count", [&](PassBuilder& pass) { pass.copy_to(count); }, [=](Recorder& r) { r.fill(count, 1); });
+    graph.execute(false);
+    EXPECT_TRUE(answered);
+}
+
 TEST_F(InFlight, SlotsThatAreNotThereAreNamed) {
     EXPECT_EQ(error_of([&] { Frames(device, 0); }), "0 frames in flight; valid is 1 to 8");
     Frames frames(device, 2);
@@ -209,9 +243,10 @@ TEST_F(InFlight, SlotsThatAreNotThereAreNamed) {
 
 GraphDeclaration declaration_of(std::uint32_t side, Load load, VkImageLayout initial, const std::string& name) {
     GraphDeclaration declaration;
-    declaration.textures.push_back({.desc = {.name = name, .format = VK_FORMAT_R32_SFLOAT, .width = side, .height = side},
-                                    .imported = true,
-                                    .initial = {initial}});
+    declaration.textures.push_back(
+        {.desc = {.name = name, .format = VK_FORMAT_R32_SFLOAT, .width = side, .height = side},
+         .imported = true,
+         .initial = {initial}});
     declaration.passes.push_back({.name = name, .uses = {{.kind = UseKind::color, .load = load}}});
     return declaration;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Host-visible bytes that live for one execution: the blocks given by Recorder::set_bytes.
+// Host-visible bytes that live for one execution: the blocks given by Recorder::set_bytes, and what the device answers.
 #pragma once
 
 #include "gpu/memory.h"
@@ -12,6 +12,7 @@ namespace gn {
 struct UploadedBytes {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, bytes = 0;
+    std::byte* mapped = nullptr;  ///< where the bytes are for the host
 };
 
 class UploadArena {
@@ -25,23 +26,29 @@ class UploadArena {
     }
 
     UploadedBytes put(std::span<const std::byte> data) {
+        const UploadedBytes result = reserve(data.size());
+        if (!data.empty()) {
+            std::memcpy(result.mapped, data.data(), data.size());
+        }
+        return result;
+    }
+
+    /// Room for `bytes`, with whatever they hold.
+    UploadedBytes reserve(std::size_t bytes) {
         // Go on to a chunk that has room, making it where there is none.
-        while (chunk_ < chunks_.size() && used_ + data.size() > chunks_[chunk_].desc().bytes) {
+        while (chunk_ < chunks_.size() && used_ + bytes > chunks_[chunk_].desc().bytes) {
             ++chunk_;
             used_ = 0;
         }
         if (chunk_ == chunks_.size()) {
             chunks_.emplace_back(
                 device_, BufferDesc{.name = "uniforms",
-                                    .bytes = std::max<VkDeviceSize>(chunk_bytes, data.size()),
+                                    .bytes = std::max<VkDeviceSize>(chunk_bytes, bytes),
                                     .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                     .host_visible = true});
         }
         const Buffer& chunk = chunks_[chunk_];
-        if (!data.empty()) {
-            std::memcpy(chunk.mapped() + used_, data.data(), data.size());
-        }
-        const UploadedBytes result{chunk.vk(), used_, std::max<VkDeviceSize>(data.size(), 4)};
+        const UploadedBytes result{chunk.vk(), used_, std::max<VkDeviceSize>(bytes, 4), chunk.mapped() + used_};
         used_ += (result.bytes + alignment - 1) / alignment * alignment;
         return result;
     }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What is made of a map's depth for those who ask for ranges of it: a pyramid of least and greatest depths, and N-buffers,
+// which answer for any square of 2^l texels and not only for aligned ones. The readers are in derived.glsl.
+//
+// Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
+#pragma once
+
+#include "gpu/frame_graph.h"
+
+namespace gn {
+
+/// RG32F, as large as `depth`, all mips: x the least and y the greatest depth of the 2^l x 2^l texels under a texel of
+/// level l. Where a side is odd, the last texel of the next level covers three of its texels, so that none is left out.
+/// `depth`: a 2D array, one sample; its layers stay.
+TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth);
+
+enum class NBuffer {
+    min_max,  ///< RG32F: least and greatest
+    mean,     ///< the components' means, in the source's own format
+};
+/// Level l of layer v is layer v * levels + l: at texel t, over the square of 2^l texels that begins at t and goes to the
+/// right and down, clamped to the map. `levels` is the return value's layers over the source's: 1 + floor(log2(side)),
+/// at most `most_levels`. Throws Error where the device has too few layers.
+TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels = 16);
+
+/// Levels that add_n_buffer makes for a map of this side.
+std::uint32_t n_buffer_levels(std::uint32_t side, std::uint32_t most_levels = 16);
+
+}  // namespace gn

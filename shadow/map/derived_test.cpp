@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Pyramids and N-buffers against a walk over the texels: exact where they promise it, never too narrow elsewhere.
+#include "shadow/map/derived.h"
+
+#include "shadow/map/derived.glsl"
+#include "tests/rig.h"
+
+#include <cstring>
+#include <random>
+
+namespace gn {
+namespace {
+
+/// A map of random depths, two layers.
+struct Source {
+    std::uint32_t width, height;
+    std::vector<float> values;
+    Texture2D texture;
+
+    Source(std::uint32_t w, std::uint32_t h) : width(w), height(h), values(std::size_t{2} * w * h) {
+        std::mt19937 random(w * 31 + h);
+        for (float& value : values) {
+            value = std::uniform_real_distribution<float>(0, 1)(random);
+        }
+        texture = Texture2D(test::device(), {.name = "source",
+                                             .format = VK_FORMAT_R32_SFLOAT,
+                                             .width = w,
+                                             .height = h,
+                                             .layers = 2,
+                                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+    }
+    [[nodiscard]] float at(int x, int y, std::uint32_t layer) const {
+        return values[(std::size_t{layer} * height + static_cast<std::size_t>(y)) * width + static_cast<std::size_t>(x)];
+    }
+    [[nodiscard]] vec2 range(ivec2 first, ivec2 last, std::uint32_t layer) const {
+        vec2 range(3e38F, -3e38F);
+        for (int y = std::max(first.y, 0); y <= std::min(last.y, static_cast<int>(height) - 1); ++y) {
+            for (int x = std::max(first.x, 0); x <= std::min(last.x, static_cast<int>(width) - 1); ++x) {
+                range = vec2(std::min(range.x, at(x, y, layer)), std::max(range.y, at(x, y, layer)));
+            }
+        }
+        return range;
+    }
+    /// The source in a graph, filled from a buffer by a fragment pass a layer.
+    TextureHandle draw(FrameGraph& graph) {
+        const TextureHandle target = graph.create({.name = "source",
+                                                   .format = VK_FORMAT_R32_SFLOAT,
+                                                   .width = width,
+                                                   .height = height,
+                                                   .layers = 2});
+        for (std::uint32_t layer = 0; layer < 2; ++layer) {
+            const std::size_t texels = std::size_t{width} * height;
+            std::vector<float> part(values.begin() + static_cast<std::ptrdiff_t>(layer * texels),
+                                    values.begin() + static_cast<std::ptrdiff_t>((layer + 1) * texels));
+            graph.add_pass(
+                "fill", [&](PassBuilder& pass) { pass.color(target, Load::discard, {}, one_layer(layer)); },
+                [part, w = static_cast<std::int32_t>(width)](Recorder& r) {
+                    r.bind(fullscreen({ShaderKind::fragment, "fill", R"(
+layout(binding = 0, scalar) readonly buffer Values { float v[]; } values;
+layout(push_constant) uniform Push { int width; } push;
+layout(location = 0) out vec4 result;
+void main() { result = vec4(values.v[int(gl_FragCoord.y) * push.width + int(gl_FragCoord.x)]); }
+)"}));
+                    r.set_bytes("values", std::as_bytes(std::span(part)));
+                    r.push_value(w);
+                    r.draw(3);
+                });
+        }
+        return target;
+    }
+};
+
+std::vector<vec2> pairs_of(const std::vector<std::byte>& bytes) {
+    std::vector<vec2> pairs(bytes.size() / sizeof(vec2));
+    std::memcpy(pairs.data(), bytes.data(), bytes.size());
+    return pairs;
+}
+
+TEST(Derived, EveryLevelOfThePyramidHoldsTheRangeUnderItsTexels) {
+    const test::ValidationGuard guard;
+    for (const auto& [width, height] : {std::pair{16U, 16U}, {21U, 13U}, {7U, 1U}}) {
+        Source source(width, height);
+        FrameGraph graph(test::device());
+        const TextureHandle pyramid = add_min_max_pyramid(graph, source.draw(graph));
+        graph.keep(pyramid);
+        graph.execute(false);
+        const std::uint32_t mips = graph.desc(pyramid).mips;
+        for (std::uint32_t layer = 0; layer < 2; ++layer) {
+            for (std::uint32_t mip = 0; mip < mips; ++mip) {
+                const std::vector<vec2> level = pairs_of(graph.download(pyramid, mip, layer));
+                const int w = std::max(static_cast<int>(width >> mip), 1);
+                const int h = std::max(static_cast<int>(height >> mip), 1);
+                ASSERT_EQ(level.size(), static_cast<std::size_t>(w * h));
+                for (int y = 0; y < h; ++y) {
+                    for (int x = 0; x < w; ++x) {
+                        // The last texel takes in what odd sides leave over.
+                        const ivec2 first(x << mip, y << mip);
+                        const ivec2 last(x == w - 1 ? static_cast<int>(width) - 1 : ((x + 1) << mip) - 1,
+                                         y == h - 1 ? static_cast<int>(height) - 1 : ((y + 1) << mip) - 1);
+                        EXPECT_EQ(level[static_cast<std::size_t>(y * w + x)], source.range(first, last, layer))
+                            << width << " x " << height << " mip " << mip << " texel " << x << ", " << y;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Derived, AnNBufferAnswersForEverySquare) {
+    const test::ValidationGuard guard;
+    Source source(19, 12);
+    FrameGraph graph(test::device());
+    const TextureHandle map = source.draw(graph);
+    const TextureHandle ranges = add_n_buffer(graph, map, NBuffer::min_max);
+    const TextureHandle means = add_n_buffer(graph, map, NBuffer::mean, 3);
+    graph.keep(ranges);
+    graph.keep(means);
+    graph.execute(false);
+    const std::uint32_t levels = n_buffer_levels(19);
+    ASSERT_EQ(levels, 5U);
+    ASSERT_EQ(graph.desc(ranges).layers, 2 * levels);
+    ASSERT_EQ(graph.desc(means).layers, 2U * 3U);
+    for (std::uint32_t layer = 0; layer < 2; ++layer) {
+        for (std::uint32_t level = 0; level < levels; ++level) {
+            const std::vector<vec2> read = pairs_of(graph.download(ranges, 0, layer * levels + level));
+            for (int y = 0; y < 12; ++y) {
+                for (int x = 0; x < 19; ++x) {
+                    const ivec2 last = ivec2(x, y) + (1 << level) - 1;
+                    EXPECT_EQ(read[static_cast<std::size_t>(y * 19 + x)], source.range({x, y}, last, layer))
+                        << "level " << level << " texel " << x << ", " << y;
+                }
+            }
+        }
+        // Inside the map the mean at level 2 is the box of 4 x 4 texels; sums of sixteen values round four times.
+        const std::vector<std::byte> bytes = graph.download(means, 0, layer * 3 + 2);
+        std::vector<float> read(bytes.size() / 4);
+        std::memcpy(read.data(), bytes.data(), bytes.size());
+        for (int y = 0; y + 3 < 12; ++y) {
+            for (int x = 0; x + 3 < 19; ++x) {
+                double sum = 0;
+                for (int i = 0; i < 16; ++i) {
+                    sum += static_cast<double>(source.at(x + i % 4, y + i / 4, layer));
+                }
+                EXPECT_NEAR(read[static_cast<std::size_t>(y * 19 + x)], sum / 16, 4 * 6e-8);
+            }
+        }
+    }
+}
+
+TEST(Derived, RectanglesAreCoveredByFourFetches) {
+    const test::ValidationGuard guard;
+    constexpr int rectangles = 200;
+    Source source(33, 33);
+    std::mt19937 random(7);
+    std::vector<ivec4> asked;
+    for (int i = 0; i < rectangles; ++i) {
+        const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        const ivec2 first(pick(0, 32), pick(0, 32));
+        // The first half squares, the second any rectangles.
+        const int side = pick(0, 32 - std::max(first.x, first.y));
+        const ivec2 last = i < rectangles / 2 ? first + side : ivec2(pick(first.x, 32), pick(first.y, 32));
+        asked.emplace_back(first, last);
+    }
+    FrameGraph graph(test::device());
+    const TextureHandle map = source.draw(graph);
+    const TextureHandle pyramid = add_min_max_pyramid(graph, map);
+    const TextureHandle buffer = add_n_buffer(graph, map, NBuffer::min_max);
+    const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec4)});
+    graph.keep(answers);
+    graph.add_pass(
+        "ask",
+        [&](PassBuilder& pass) {
+            pass.sample(pyramid);
+            pass.sample(buffer);
+            pass.storage_write(answers);
+        },
+        [=](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "ask", R"(
+#include "shadow/map/derived.glsl"
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform sampler2DArray pyramid;
+layout(binding = 1) uniform sampler2DArray n_buffer;
+layout(binding = 2, scalar) readonly buffer Asked { ivec4 rectangles[]; } asked;
+layout(binding = 3, scalar) buffer Answers { vec4 values[]; } answers;
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < asked.rectangles.length()) {
+        ivec4 rectangle = asked.rectangles[i];
+        int levels = textureQueryLevels(pyramid);
+        answers.values[i] = vec4(gn_pyramid_min_max(pyramid, rectangle.xy, rectangle.zw, 1, levels),
+                                 gn_n_buffer_min_max(n_buffer, rectangle.xy, rectangle.zw, 1, levels));
+    }
+}
+)"},
+                               {}});
+            r.set("pyramid", pyramid);
+            r.set("n_buffer", buffer);
+            r.set_bytes("asked", std::as_bytes(std::span(asked)));
+            r.set("answers", answers);
+            r.dispatch((rectangles + 63) / 64, 1);
+        });
+    graph.execute(false);
+    const std::vector<std::byte> bytes = graph.download(answers);
+    std::vector<vec4> read(rectangles);
+    std::memcpy(read.data(), bytes.data(), rectangles * sizeof(vec4));
+    for (int i = 0; i < rectangles; ++i) {
+        const ivec2 first(asked[static_cast<std::size_t>(i)]), last(asked[static_cast<std::size_t>(i)].z, asked[static_cast<std::size_t>(i)].w);
+        const vec4 got = read[static_cast<std::size_t>(i)];
+        const vec2 exact = source.range(first, last, 1);
+        EXPECT_TRUE(got.x <= exact.x && got.y >= exact.y) << "pyramid, rectangle " << i;
+        EXPECT_TRUE(got.z <= exact.x && got.w >= exact.y) << "n-buffer, rectangle " << i;
+        if (last.x - first.x == last.y - first.y) {
+            EXPECT_EQ(vec2(got.z, got.w), exact) << "n-buffer, square " << i;
+        }
+        // A pyramid answers for the aligned squares that the rectangle touches; an N-buffer is never wider than that.
+        const int level = glsl::gn_n_buffer_level(first, last, 6);
+        EXPECT_EQ(vec2(got.z, got.w), source.range(first, glm::max(last, first + (1 << level) - 1), 1)) << i;
+    }
+}
+
+}  // namespace
+}  // namespace gn
