@@ -45,4 +45,9 @@ using namespace glm;  // NOLINT: abs, clamp, mix, dot ... as GLSL has them; form
 #define GN_INOUT(type) inout type
 
 #endif
+
+// What a formula's clamp would hide. Nothing, but where a host defines it before: see shadow/lookup/expect.h.
+#ifndef GN_EXPECT
+#define GN_EXPECT(condition)
+#endif
 #endif

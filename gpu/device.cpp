@@ -26,7 +26,7 @@ namespace {
 
 class VulkanDevice final : public Device {
   public:
-    explicit VulkanDevice(const DeviceOptions& options) {
+    explicit VulkanDevice(const DeviceOptions& options) : validates_(options.validation) {
         instance_.emplace(options.validation, log_);
         std::vector<Candidate> candidates = examine_all(instance_->vk());
         const char* variable = std::getenv("GNOMON_DEVICE");
@@ -86,6 +86,11 @@ class VulkanDevice final : public Device {
     [[nodiscard]] PipelineCache& pipelines() override { return *pipelines_; }
     [[nodiscard]] MemoryPool& memory() override { return *memory_; }
     [[nodiscard]] const std::vector<std::string>& messages() const override { return log_.messages; }
+    [[nodiscard]] bool validates() const override { return validates_; }
+    void report(const std::string& message) override {
+        const std::lock_guard lock(log_.mutex);
+        log_.messages.push_back(message);
+    }
 
     void run(const std::function<void(VkCommandBuffer)>& record) override {
         // Record; the host may read afterwards what the device wrote.
@@ -166,6 +171,7 @@ class VulkanDevice final : public Device {
     }
 
     MessageLog log_;
+    bool validates_ = false;
     std::optional<Instance> instance_;
     Candidate candidate_;
     VkInstance vk_instance_ = VK_NULL_HANDLE;

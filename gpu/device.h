@@ -98,6 +98,9 @@ class Device {
     virtual void run(const std::function<void(VkCommandBuffer)>& record) = 0;
     /// Validation messages (errors and warnings, performance hints filtered) since the device was made.
     [[nodiscard]] virtual const std::vector<std::string>& messages() const = 0;
+    /// Whether it was made with validation. Passes then check what they compute, too, and report it as a message.
+    [[nodiscard]] virtual bool validates() const { return false; }
+    virtual void report(const std::string& message) { check_failed(__FILE__, __LINE__, "validates()", message); }
 
   private:
     Counters counters_;

@@ -4,6 +4,7 @@
 
 #include "shadow/check_recipe.h"
 #include "shadow/history.h"
+#include "shadow/lookup/expect.h"
 #include "shadow/placement/place.h"
 #include "shadow/view/read_back.h"
 
@@ -109,6 +110,10 @@ std::vector<std::string> remarks_of(const Recipe& recipe, const Scene& scene) {
     return remarks;
 }
 
+std::string recipe_text(const Recipe& recipe) {
+    return recipe.name + (recipe.overrides.empty() ? "" : ",") + recipe.overrides;
+}
+
 }  // namespace
 
 FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
@@ -131,6 +136,7 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
     result.samples = read_samples(graph, frame.samples);
     for (const TextureHandle image : frame.visibility) {
         result.visibility.push_back(image.valid() ? read_image(graph, image) : Image{});
+        report_marked(device, result.visibility.back(), recipe_text(recipe), result.visibility.size() - 1);
     }
     if (frame.picture.valid()) {
         result.picture = without_alpha(read_image(graph, frame.picture));

@@ -2,6 +2,7 @@
 // The resolve pass: every view sample through the placement's choice, the bias and the lookup's function. Its shader is
 // composed of includes; no combination of parts is ever written down.
 #include "shadow/frame.h"
+#include "shadow/lookup/expect.h"
 #include "shadow/lookup/sample_pass.h"
 
 namespace gn {
@@ -19,7 +20,7 @@ layout(binding = 8) uniform sampler2D gbuffer_material;
 constexpr const char* main_text = R"(
 float visibility_in(GnReceiver receiver, int index) {
     GnProjected projected = gn_project(receiver, views[index], u.bias);
-    return projected.inside ? clamp(GN_LOOKUP, 0.0, 1.0) : 1.0;
+    return projected.inside ? gn_unit(GN_LOOKUP) : 1.0;
 }
 
 void main() {
@@ -60,11 +61,12 @@ std::string map_call(const Part& map) {
         identifier(map.id), map.params_type.empty() ? "" : ", u.map_params");
 }
 
-ComputeDesc resolve_shader(const Recipe& recipe, const LightViews& views) {
+ComputeDesc resolve_shader(const Device& device, const Recipe& recipe, const LightViews& views) {
     const Part& placement = *views.part;
     const Part& map = *recipe.map;
     const Part& lookup = *recipe.lookup;
-    std::string text = receiver_defines(recipe, views) + (recipe.casters == "ids" ? "#define GN_CASTER_IDS\n" : "");
+    std::string text = expect_text(device) + receiver_defines(recipe, views) +
+                       (recipe.casters == "ids" ? "#define GN_CASTER_IDS\n" : "");
     text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
     text += prologue_of(map, recipe) + include_line(map.glsl);
     // A lookup that filters calls the map's function, so that the uniform block must stand before it.
@@ -118,8 +120,8 @@ Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const Ligh
             }
             pass.storage_write(result.image);
         },
-        [shader = resolve_shader(recipe, views), bytes = constants_of(input, recipe), samples, views, map, result,
-         ids](Recorder& r) {
+        [shader = resolve_shader(input.device, recipe, views), bytes = constants_of(input, recipe), samples, views, map,
+         result, ids](Recorder& r) {
             r.bind(shader);
             set_samples(r, samples, views);
             if (ids) {

@@ -67,6 +67,7 @@ float gn_convolution_visibility(sampler2DArray map, sampler2DArray extra, GnProj
         vec3 at = vec3(projected.uv_ts, projected.layer * groups + group);
         sum += gn_convolution_group(textureGrad(map, at, ddx_ts, ddy_ts), receiver, group, params);
     }
+    GN_EXPECT(gn_finite(sum));
     return gn_convolution_step(sum, params.scale);
 }
 

@@ -65,6 +65,7 @@ float gn_esm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected pr
                         GnEsmParams params) {
     float mean = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).r;
     float product = gn_esm_product(mean, projected.depth, params.exponent);
+    GN_EXPECT(gn_finite(product) && product >= 0.0);
     if (params.fallback != 0 && gn_esm_fails(product, params.epsilon)) {
         return gn_esm_pcf(extra, projected, abs(ddx_ts) + abs(ddy_ts), params);
     }

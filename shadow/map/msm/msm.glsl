@@ -75,6 +75,7 @@ GN_FN float gn_msm_hamburger(vec4 b, float z) {
         return 0.0f;
     }
     float shadow = z <= roots.y ? gn_msm_mass(b, roots.x, z, roots.y) : 1.0f - gn_msm_mass(b, z, roots.x, roots.y);
+    GN_EXPECT(gn_finite(shadow));
     return clamp(shadow, 0.0f, 1.0f);
 }
 
@@ -92,6 +93,7 @@ GN_FN float gn_msm_hausdorff(vec4 b, float z) {
     float before = -(b.z - (1.0f + z + y) * b.y + (z + y + z * y) * b.x - z * y) /
                    gn_msm_nonzero(2.0f * (1.0f + z) * (1.0f + y));
     float between = (m1 - z * m0) / gn_msm_nonzero((1.0f - y * y) * (y - z));
+    GN_EXPECT(gn_finite(before) && gn_finite(between));
     return clamp(before + (y < z ? between : 0.0f), 0.0f, 1.0f);
 }
 

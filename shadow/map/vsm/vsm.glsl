@@ -21,6 +21,7 @@ GN_FN vec2 gn_vsm_moments(float depth, float ddx, float ddy) {
 GN_FN float gn_vsm_chebyshev(vec2 moments, float depth, float min_variance) {
     float variance = max(moments.y - moments.x * moments.x, min_variance);
     float distance = depth - moments.x;
+    GN_EXPECT(gn_finite(moments.x) && gn_finite(moments.y) && gn_finite(depth));
     return distance <= 0.0f ? 1.0f : variance / (variance + distance * distance);
 }
 

@@ -7,6 +7,7 @@
 #include "shadow/visibility/bilateral/bilateral.h"
 
 #include "shadow/frame.h"
+#include "shadow/lookup/expect.h"
 
 namespace gn {
 namespace {
@@ -58,7 +59,7 @@ void main() {
         sum += weight * texelFetch(noisy, neighbour, 0).r;
         weights += weight;
     }
-    imageStore(filtered, pixel, vec4(clamp(sum / weights, 0.0, 1.0)));
+    imageStore(filtered, pixel, vec4(gn_unit(sum / weights)));
 }
 )";
 
@@ -80,9 +81,9 @@ TextureHandle add_direction(const FrameInput& input, const GnBilateralParams& pa
             pass.sample(noisy);
             pass.storage_write(filtered);
         },
-        [samples, noisy, filtered, axis,
+        [samples, noisy, filtered, axis, text = expect_text(input.device) + filter_text,
          constants = Constants{samples.constants, input.light().shape, params}](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "bilateral.comp", filter_text}});
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "bilateral.comp", text}});
             r.set("gbuffer_position", samples.position);
             r.set("gbuffer_normal", samples.normal);
             r.set("noisy", noisy);
