@@ -21,6 +21,7 @@ if(GNOMON_PRECOMPILED)
   gn_precompile(gn_precompiled_sources)
   gn_precompile(gn_precompiled_suites <gtest/gtest.h>)
   target_link_libraries(gn_precompiled_suites PRIVATE GTest::gtest)
+  target_compile_definitions(gn_precompiled_suites PRIVATE _GLIBCXX_ASSERTIONS)
 endif()
 
 function(gn_precompiled target)

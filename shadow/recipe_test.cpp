@@ -321,6 +321,7 @@ TEST(Parts, IdsWithParametersAreUnique) {
             EXPECT_TRUE(seen.insert(identifier(part->id)).second) << part->id;
         }
     }
+    EXPECT_GT(seen.size(), 10U);
 }
 
 TEST(Parts, EveryDefaultLiesInItsRange) {

@@ -56,6 +56,8 @@ inline Comparison compare(Scene scene, const std::string& recipe, const Comparis
                                    {.samples = options.samples});
     c.errors = visibility_errors(c.frame.visibility.front().values, c.truth.visibility, c.truth.counted,
                                  static_cast<int>(options.width), static_cast<int>(options.height));
+    // What is asserted of a comparison is asserted of a good part of the picture.
+    EXPECT_GT(c.errors.samples, c.visibility().values.size() / 50) << c.scene.name << " with " << recipe;
     return c;
 }
 

@@ -139,14 +139,18 @@ TEST(CascadeStable, SlicesBeginWhereTheSceneDoes) {
     };
     EXPECT_EQ(range(-1).near, static_cast<double>(0.1F));
     double before = range(1).near;
+    int doublings = 0;
     for (double distance = 1; distance < 500; distance *= 1.01) {
         const Interval now = range(distance);
         EXPECT_LE(now.near, distance);
         EXPECT_GE(now.near, 0.4 * distance) << distance;
-        EXPECT_TRUE(now.near == before || std::abs(now.near - 2 * before) < 1e-9 * before) << distance;
+        const bool doubled = now.near != before;
+        EXPECT_NEAR(now.near, doubled ? 2 * before : before, 1e-9 * before) << distance;
+        doublings += doubled ? 1 : 0;
         EXPECT_GT(now.far, now.near);
         before = now.near;
     }
+    EXPECT_GE(doublings, 8);  // from 1 to 500 metres the distance doubles nearly nine times
     // Half the scene's larger side over the slope of the frustum's corners.
     const double slope = std::tan(0.25) * std::hypot(1, 160.0 / 90);
     EXPECT_NEAR(range(1).far, 1.001 * 10 / slope, 1e-3);

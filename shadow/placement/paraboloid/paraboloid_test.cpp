@@ -18,14 +18,17 @@ struct Directions {
 
 TEST(Paraboloid, RayAndImageAreInverse) {
     Directions direction;
+    int asked = 0;
     for (int i = 0; i < 1000; ++i) {
         const vec3 d = direction();
         if (d.z > -0.9F) {
+            ++asked;
             EXPECT_LT(glm::length(glsl::gn_paraboloid_ray(glsl::gn_paraboloid(7.0F * d)) - d), 1e-5F);
             // The hemisphere is the unit disc.
             EXPECT_EQ(glm::length(glsl::gn_paraboloid(d)) < 1, d.z > 0) << d.z;
         }
     }
+    EXPECT_GT(asked, 900);
 }
 
 GnLightView some_view() {
@@ -37,6 +40,8 @@ GnLightView some_view() {
 TEST(Paraboloid, BoundsHoldTheCurvedTriangle) {
     Directions direction;
     std::uniform_real_distribution<float> uniform(0, 1);
+    int asked = 0;
+    int small = 0;
     for (int i = 0; i < 4000; ++i) {
         const float size = i % 2 == 0 ? 0.1F : 2.0F;
         const vec3 a = 3.0F * direction();
@@ -52,14 +57,18 @@ TEST(Paraboloid, BoundsHoldTheCurvedTriangle) {
             }
             const vec2 u = glsl::gn_paraboloid(a + s * (b - a) + t * (c - a));
             if (std::max(std::abs(u.x), std::abs(u.y)) < 1.1F) {
+                ++asked;
                 ASSERT_TRUE(u.x >= box.x && u.x <= box.z && u.y >= box.y && u.y <= box.w)
                     << "triangle " << i << " u = " << u.x << ", " << u.y;
             }
         }
         if (size < 1 && std::min({a.z, b.z, c.z}) > 0) {
+            ++small;
             EXPECT_LT(std::max(box.z - box.x, box.w - box.y), 0.2F) << "triangle " << i;
         }
     }
+    EXPECT_GT(asked, 50000);
+    EXPECT_GT(small, 500);
 }
 
 /// A texel's ray meets the triangle where it does, and neighbours leave no gap.
