@@ -354,5 +354,18 @@ def manual_pages(tree):
     return complaints
 
 
+def mutants(tree):
+    """A wrong edit still finds its text, once, and its test is there; tools/mutants runs them."""
+    complaints = []
+    for name in tree.having({".toml"}, "tests/mutants/"):
+        for number, mutant in enumerate(tomllib.loads(tree.text(name)).get("mutant", []), 1):
+            count = tree.text(mutant["file"]).count(mutant["before"]) if mutant["file"] in tree.files else 0
+            if count != 1:
+                complaints.append(f"{name}: edit {number} ({mutant['law']}) finds its text {count} times in {mutant['file']}")
+            if mutant["test"] not in tree.files:
+                complaints.append(f"{name}: edit {number} ({mutant['law']}) names {mutant['test']}, which is not there")
+    return complaints
+
+
 ALL = (part_shape, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
-       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, recipes, manual_pages)
+       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, recipes, manual_pages, mutants)

@@ -33,6 +33,8 @@ GOOD = {
 }
 GLSL = GOOD["shadow/lookup/soft/soft.glsl"]
 PART = "shadow/lookup/soft/soft"
+MUTANT = '# SPDX-License-Identifier: MIT\n[[mutant]]\nlaw = "It is x."\nfile = "shadow/lookup/soft/soft.glsl"\n' \
+         'before = "{}"\nafter = "return 0.0;"\ntest = "{}"\ncases = "Soft.*"\n'
 
 # rule, what is changed in the good tree (None removes), a word of the complaint
 BREACHES = [
@@ -77,6 +79,8 @@ BREACHES = [
     (rules.portable_glsl, {f"{PART}.glsl": GLSL + "struct Soft {\n"}, "'Soft'"),
     (rules.portable_glsl, {f"{PART}.glsl": GLSL + "#define SOFT 1\n"}, "'SOFT'"),
     (rules.portable_glsl, {f"{PART}.glsl": SPDX + "float gn_soft(float x) { return x; }\n"}, "guard"),
+    (rules.mutants, {"tests/mutants/soft.toml": MUTANT.format("return y;", "base/error_test.cpp")}, "0 times"),
+    (rules.mutants, {"tests/mutants/soft.toml": MUTANT.format("return x;", "base/absent_test.cpp")}, "base/absent_test.cpp"),
     (rules.recipes, {"recipes/soft.toml": GOOD["recipes/soft.toml"] + 'map = "absent"\n'}, "absent"),
     (rules.recipes, {"recipes/soft.toml": 'title = "a"\ncitation = "Wil78"\n'}, "paragraph"),
     (rules.recipes, {"recipes/soft.toml": 'title = "a"\nparagraph = "b"\ncitation = "Xyz99"\n'}, "Xyz99"),
