@@ -4,9 +4,10 @@
 #     make demo    compares the shipped recipes on the courtyard and writes a report to look at
 #     make test    builds and runs every test; the last line is the count
 #
+# make measure runs what is too long for either, in some hours: mutants, sweeps over scales, tables, ratios, pictures.
 # The others: build, debug, bench, install, bundle, pictures, docs, format, tidy, clean.
 .DEFAULT_GOAL := build
-.PHONY: packages build debug demo test bench install bundle pictures docs format tidy clean
+.PHONY: packages build debug demo test measure bench install bundle pictures docs format tidy clean
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
@@ -37,7 +38,13 @@ test: packages
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan --log-level=WARNING
 	@cmake --build build/asan -j $(JOBS)
-	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --tidy --embed --report --bundle --count build/count.txt
+	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --tidy --embed --report --bundle --slowest 20 \
+	    --count build/count.txt
+
+measure: packages
+	@cmake --preset release --log-level=WARNING
+	@cmake --build $(RELEASE) -j $(JOBS)
+	@tools/measure --build $(RELEASE)
 
 bench: build
 	@cmake --build $(RELEASE) -j $(JOBS) --target performance_ratios
