@@ -195,7 +195,9 @@ TEST(ContactGap, MeasuresHowFarLightLeaksFromTheFoot) {
         leaking.push_back(away < 0.04 ? 1.0F : static_cast<float>(truth));
     }
     EXPECT_EQ(contact_scene::gap(light, points, exact), 0);
-    EXPECT_NEAR(contact_scene::gap(light, points, leaking), 0.04, 0.003);
+    // Never more than what leaks; of 20000 points on nine square metres some 25 lie in the outermost 3 mm around the foot.
+    EXPECT_LE(contact_scene::gap(light, points, leaking), 0.04);
+    EXPECT_GE(contact_scene::gap(light, points, leaking), 0.037);
 }
 
 }  // namespace

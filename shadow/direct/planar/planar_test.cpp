@@ -52,8 +52,9 @@ TEST(PlanarLaws, receivers_are_found_by_area_whatever_their_winding_and_tessella
     const auto found = receiver_planes(scene, {});
     ASSERT_EQ(found->planes.size(), 2U);
     const double total = 420 + 64 + 4 * std::numbers::pi * std::numbers::pi * 3;
-    EXPECT_NEAR(found->planes[0].share, 420 / total, 0.01);
-    EXPECT_NEAR(found->planes[1].share, 64 / total, 0.01);
+    // The chords of the ball's 40 segments lose up to a hundredth of its area, which is a fifth of the whole.
+    EXPECT_NEAR(found->planes[0].share, 420 / total, 0.01 * 0.2 * 420 / total);
+    EXPECT_NEAR(found->planes[1].share, 64 / total, 0.01 * 0.2 * 64 / total);
     EXPECT_NEAR(std::abs(found->planes[0].plane_ws.y), 1.0F, 1e-6F);
     EXPECT_NEAR(found->planes[0].plane_ws.w, 0.0F, 1e-6F);
     EXPECT_NEAR(std::abs(found->planes[1].plane_ws.w), 1.0F, 1e-6F);
