@@ -74,10 +74,9 @@ void main() {
     vec4 ba = texelFetch(source, ivec3(b.x, a.y, push.layer), 0);
     vec4 ab = texelFetch(source, ivec3(a.x, b.y, push.layer), 0);
     vec4 bb = texelFetch(source, ivec3(b, push.layer), 0);
-)" + std::string(kind == NBuffer::mean
-                     ? "    result = 0.25 * ((aa + ba) + (ab + bb));\n}\n"
-                     : "    result = vec4(min(min(aa.x, ba.x), min(ab.x, bb.x)), "
-                       "max(max(aa.y, ba.y), max(ab.y, bb.y)), 0.0, 0.0);\n}\n");
+)" + std::string(kind == NBuffer::mean ? "    result = 0.25 * ((aa + ba) + (ab + bb));\n}\n"
+                                       : "    result = vec4(min(min(aa.x, ba.x), min(ab.x, bb.x)), "
+                                         "max(max(aa.y, ba.y), max(ab.y, bb.y)), 0.0, 0.0);\n}\n");
 }
 
 TextureDesc range_desc(FrameGraph& graph, TextureHandle source, std::string name) {
@@ -97,10 +96,10 @@ TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth) {
     desc.mips = static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)));
     const TextureHandle pyramid = graph.create(desc);
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
-        add_step(graph, depth, pyramid,
-                 {"min max", first_text, one_layer(layer), one_layer(layer)});
+        add_step(graph, depth, pyramid, {"min max", first_text, one_layer(layer), one_layer(layer)});
         for (std::uint32_t mip = 1; mip < desc.mips; ++mip) {
-            add_step(graph, pyramid, pyramid, {"min max", halve_text, one_layer(layer, mip - 1), one_layer(layer, mip)});
+            add_step(graph, pyramid, pyramid,
+                     {"min max", halve_text, one_layer(layer, mip - 1), one_layer(layer, mip)});
         }
     }
     return pyramid;
@@ -119,15 +118,18 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
     const std::uint32_t levels = n_buffer_levels(std::max(desc.width, desc.height), most_levels);
     desc.layers = layers * levels;
     const TextureHandle buffer = graph.create(desc);
-    const char* const first = kind == NBuffer::mean
-                                  ? "void main() { result = texelFetch(source, ivec3(gl_FragCoord.xy, push.layer), 0); }\n"
-                                  : first_text;
+    const char* const first =
+        kind == NBuffer::mean ? "void main() { result = texelFetch(source, ivec3(gl_FragCoord.xy, push.layer), 0); }\n"
+                              : first_text;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t base = layer * levels;
         add_step(graph, source, buffer, {"n-buffer", first, one_layer(layer), one_layer(base)});
         for (std::uint32_t level = 1; level < levels; ++level) {
             add_step(graph, buffer, buffer,
-                     {"n-buffer", join_text(kind), one_layer(base + level - 1), one_layer(base + level),
+                     {"n-buffer",
+                      join_text(kind),
+                      one_layer(base + level - 1),
+                      one_layer(base + level),
                       {0, 1 << (level - 1)}});
         }
     }

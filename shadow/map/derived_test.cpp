@@ -30,7 +30,8 @@ struct Source {
                                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
     }
     [[nodiscard]] float at(int x, int y, std::uint32_t layer) const {
-        return values[(std::size_t{layer} * height + static_cast<std::size_t>(y)) * width + static_cast<std::size_t>(x)];
+        return values[(std::size_t{layer} * height + static_cast<std::size_t>(y)) * width +
+                      static_cast<std::size_t>(x)];
     }
     [[nodiscard]] vec2 range(ivec2 first, ivec2 last, std::uint32_t layer) const {
         vec2 range(3e38F, -3e38F);
@@ -43,11 +44,8 @@ struct Source {
     }
     /// The source in a graph, filled from a buffer by a fragment pass a layer.
     TextureHandle draw(FrameGraph& graph) {
-        const TextureHandle target = graph.create({.name = "source",
-                                                   .format = VK_FORMAT_R32_SFLOAT,
-                                                   .width = width,
-                                                   .height = height,
-                                                   .layers = 2});
+        const TextureHandle target = graph.create(
+            {.name = "source", .format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height, .layers = 2});
         for (std::uint32_t layer = 0; layer < 2; ++layer) {
             const std::size_t texels = std::size_t{width} * height;
             std::vector<float> part(values.begin() + static_cast<std::ptrdiff_t>(layer * texels),
@@ -204,7 +202,8 @@ void main() {
     std::vector<vec4> read(rectangles);
     std::memcpy(read.data(), bytes.data(), rectangles * sizeof(vec4));
     for (int i = 0; i < rectangles; ++i) {
-        const ivec2 first(asked[static_cast<std::size_t>(i)]), last(asked[static_cast<std::size_t>(i)].z, asked[static_cast<std::size_t>(i)].w);
+        const ivec2 first(asked[static_cast<std::size_t>(i)]),
+            last(asked[static_cast<std::size_t>(i)].z, asked[static_cast<std::size_t>(i)].w);
         const vec4 got = read[static_cast<std::size_t>(i)];
         const vec2 exact = source.range(first, last, 1);
         EXPECT_TRUE(got.x <= exact.x && got.y >= exact.y) << "pyramid, rectangle " << i;

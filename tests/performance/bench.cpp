@@ -80,4 +80,18 @@ void print_ratio(const std::string& what, const Timed& a, const Timed& b, double
     std::fflush(stdout);
 }
 
+void print_over_added(const std::string& what, const Timed& ours, const Timed& with, const Timed& without) {
+    double least = never;
+    double least_with = never;
+    double least_without = never;
+    for (int round = 0; round < rounds; ++round) {
+        least = std::min(least, ours());
+        least_with = std::min(least_with, with());
+        least_without = std::min(least_without, without());
+    }
+    std::printf("| %s (%.1f ms over %.1f - %.1f) | %.2f |\n", what.c_str(), least, least_with, least_without,
+                least / (least_with - least_without));
+    std::fflush(stdout);
+}
+
 }  // namespace gn::performance

@@ -41,9 +41,13 @@ void print_title(const char* title);
 /// The least time of `a` over the least of `b`, taken in turns; `copies` counts b more than once.
 void print_ratio(const std::string& what, const Timed& a, const Timed& b, double copies = 1);
 
+/// The least time of `ours` over what `with` adds to `without`, all three taken in turns.
+void print_over_added(const std::string& what, const Timed& ours, const Timed& with, const Timed& without);
+
 /// The groups, each in a file of its own name.
 void lookups(Bench& bench);
 void placements(Bench& bench);
 void filters(Bench& bench);
+void inlined(Bench& bench);
 
 }  // namespace gn::performance

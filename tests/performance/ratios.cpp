@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What shadows cost over the least that any method must pay, as ratios of one run: `make bench` prints the tables of
-// docs/performance.md. Nothing here is asserted. Names of groups (lookups, placements, filters) select some.
+// docs/performance.md. Nothing here is asserted. Names of groups (lookups, placements, filters, inline) select some.
 #include "tests/performance/bench.h"
 
 #include <array>
@@ -8,8 +8,8 @@
 
 int main(int count, char** names) try {
     using namespace gn::performance;
-    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 3> groups{
-        {{"lookups", lookups}, {"placements", placements}, {"filters", filters}}};
+    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 4> groups{
+        {{"lookups", lookups}, {"placements", placements}, {"filters", filters}, {"inline", inlined}}};
     Bench bench;
     bench.print_head();
     for (const auto& [name, run] : groups) {
