@@ -95,6 +95,23 @@ TEST_P(Projection, TexelSizeIsTheWorldLengthOfATexel) {
     EXPECT_NEAR(moved.uv_ts.x - projected.uv_ts.x, projected.texel_ts, 2e-3F * projected.texel_ts + 2e-7F);
 }
 
+TEST_P(Projection, AViewTakesItsRectangleOfTheLayer) {
+    const GnLightView& view = GetParam();
+    const vec3 p_ws(0.3F, 1, -0.2F);
+    const vec4 p_cs = view.cs_from_ws * vec4(p_ws, 1);
+    const vec2 whole_ts = 0.5F * vec2(p_cs) / p_cs.w + 0.5F;
+    const auto whole = glsl::gn_project(receiver_at(p_ws, vec3(0, 1, 0)), view, no_bias);
+    EXPECT_LT(glm::length(whole.uv_ts - whole_ts), 1e-6F);
+
+    // Half as wide and a quarter as high: texels are twice as wide and four times as high, and the larger side counts.
+    GnLightView part = view;
+    part.rect_ts = vec4(0.5F, 0.25F, 0.5F, 0.25F);
+    const auto moved = glsl::gn_project(receiver_at(p_ws, vec3(0, 1, 0)), part, no_bias);
+    EXPECT_LT(glm::length(moved.uv_ts - (vec2(0.5F, 0.25F) + whole_ts * vec2(0.5F, 0.25F))), 1e-6F);
+    EXPECT_NEAR(moved.texel_ws, 4 * whole.texel_ts / glm::length(whole.dv_ws), 1e-4F * moved.texel_ws);
+    EXPECT_GT(moved.texel_ws, 3 * whole.texel_ts / glm::length(whole.du_ws));
+}
+
 TEST_P(Projection, BiasMovesTowardsTheLightByTexelsAndMetres) {
     const GnLightView& view = GetParam();
     const vec3 p_ws(0.1F, 0.5F, 0.4F);

@@ -117,6 +117,20 @@ TEST(Evsm, FourComponentsAreNeverBrighterThanTwo) {
     }
 }
 
+TEST(Evsm, TheNegativeWarpAnswersWhereTheKernelReachesBeyondTheReceiver) {
+    // Two of ten depths lie far behind the receiver and lift the positive mean over it: that bound says nothing. To the
+    // negative warp they are as good as nothing, and its bound is the share of two planes, exact up to exp(-6).
+    Kernel kernel;
+    kernel.depths.assign(10, 0.2F);
+    std::fill_n(kernel.depths.begin(), 2, 0.9F);
+    GnEvsmParams params = exact(GN_EVSM_FOUR);
+    params.exponent = params.exponent_negative = 10;
+    const vec4 moments = kernel.warped(params);
+    EXPECT_NEAR(gn_evsm_visible(moments, 0.5F, 0, params), 0.2F, 1e-3);
+    params.components = GN_EVSM_TWO;
+    EXPECT_EQ(gn_evsm_visible(moments, 0.5F, 0, params), 1.0F);
+}
+
 TEST(Evsm, BleedingOfThreePlanesFallsWithTheExponent) {
     using namespace scenes::stack_scene;
     const auto depth = [](double y) { return static_cast<float>((10 + height_a - y) / 20); };

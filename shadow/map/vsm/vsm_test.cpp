@@ -17,6 +17,18 @@ vec2 moments_of(float d1, float d2, float share1) {
     return share1 * a + (1 - share1) * b;
 }
 
+TEST(Vsm, MomentsOfATexelAreThoseOfItsPlane) {
+    // [DL06] 4.1 takes the texel for a Gaussian of half its side: the mean square over points half a texel to either side.
+    const float d = 0.4F, ddx = 0.03F, ddy = -0.05F;
+    float square = 0;
+    for (const vec2 at : {vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 1)}) {
+        const float depth = d + 0.5F * (at.x * ddx + at.y * ddy);
+        square += 0.25F * depth * depth;
+    }
+    EXPECT_EQ(gn_vsm_moments(d, ddx, ddy).x, d);
+    EXPECT_NEAR(gn_vsm_moments(d, ddx, ddy).y, square, 1e-7);
+}
+
 TEST(Vsm, BoundIsExactOnParallelPlanes) {
     // [Lau08] 3.2: a share p of the kernel sees the receiver's plane d2, the rest the occluder's plane d1: V = p.
     for (float share = 0.05F; share < 1; share += 0.05F) {
