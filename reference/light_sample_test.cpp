@@ -170,7 +170,11 @@ TEST(LightSample, IrradianceOfClosedForms) {
     const double a = 1.0 / 3.0;
     const double quarter = a / std::sqrt(1 + a * a) * std::atan(a / std::sqrt(1 + a * a)) * 2;
     EXPECT_NEAR(mean_irradiance(panel({1, 1}), vec3(0), up), 200.0 * 0.5 * 4 * quarter, 0.02);
-    // A spot's disc shrinks to its point.
+    // Within the inner cone a spot is a point: its candela over the squared distance, times the cosine.
+    const vec3 under(1, 1, -2);
+    const float height = spot(0).position_ws.y - under.y;
+    EXPECT_NEAR(mean_irradiance(spot(0), under, up), static_cast<double>(spot(0).intensity / (height * height)), 1e-3);
+    // Its disc shrinks to its point.
     EXPECT_NEAR(mean_irradiance(spot(0.01F), p, up), mean_irradiance(spot(0.0F), p, up), 1e-2);
 }
 

@@ -143,6 +143,29 @@ TEST(Finish, ACrumbFarAwayDoesNotShrinkThePicture) {
     EXPECT_LT(glm::length(scene.cameras[0].position_ws), 100.0F);
 }
 
+TEST(Finish, OneVastGroundDoesNotDecideWhatThePictureShows) {
+    // Eight hundred triangles of a metre stand within 20 m, on a ground of a kilometre in two: by size alone that ground
+    // would weigh two thirds of the whole.
+    Scene scene;
+    for (int i = 0; i < 800; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.positions_ws.size());
+        const vec3 p(i % 20, i / 400, (i / 20) % 20);
+        scene.positions_ws.insert(scene.positions_ws.end(), {p, p + vec3(0, 0, 1), p + vec3(1, 0, 0)});
+        scene.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    const auto first = static_cast<std::uint32_t>(scene.positions_ws.size());
+    for (const vec2 corner : {vec2(-1, -1), vec2(-1, 1), vec2(1, 1), vec2(1, -1)}) {
+        scene.positions_ws.emplace_back(500 * corner.x, -1, 500 * corner.y);
+    }
+    scene.triangles.emplace_back(first, first + 1, first + 2);
+    scene.triangles.emplace_back(first, first + 2, first + 3);
+    finish_scene(scene);
+    const Box main = main_bounds(scene);
+    EXPECT_LT(glm::length(main.extent()), 100.0F);
+    EXPECT_GT(main.extent().x, 18.0F);
+    EXPECT_GT(main.extent().z, 18.0F);
+}
+
 TEST(Finish, LightsAreCappedAndNamesBecomeUnique) {
     Scene scene = cube(vec3(0), 1.0F);
     scene.lights.resize(100);

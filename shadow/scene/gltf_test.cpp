@@ -33,6 +33,21 @@ TEST(Gltf, TransformsMultiplyDownTheHierarchy) {
     EXPECT_LT(glm::distance(moved, vec3(10, 2, 0)), 1e-5F) << moved.x << " " << moved.y << " " << moved.z;
 }
 
+TEST(Gltf, ANodeIsScaledThenTurnedThenMovedAndAMatrixIsReadByColumns) {
+    // A quarter turn about z, unequal scales and a move of one node do not commute: (1,0,0) becomes (3,0,0), (0,3,0), (7,3,0).
+    GltfText gltf = one_triangle();
+    gltf.nodes =
+        R"({"translation":[7,0,0],"rotation":[0,0,0.70710678118654752,0.70710678118654752],"scale":[3,1,1],"mesh":0})";
+    const Scene parts = load(gltf);
+    EXPECT_LT(glm::distance(parts.positions_ws[parts.triangles[0].y], vec3(7, 3, 0)), 1e-5F);
+
+    // The same as a matrix: the images of x, y and z, then where the origin goes.
+    gltf.nodes = R"({"matrix":[0,3,0,0, -1,0,0,0, 0,0,1,0, 7,0,0,1],"mesh":0})";
+    const Scene whole = load(gltf);
+    EXPECT_LT(glm::distance(whole.positions_ws[whole.triangles[0].y], vec3(7, 3, 0)), 1e-5F);
+    EXPECT_LT(glm::distance(whole.positions_ws[whole.triangles[0].z], parts.positions_ws[parts.triangles[0].z]), 1e-5F);
+}
+
 TEST(Gltf, InstancesShareAMeshAndStandWhereTheirNodesAre) {
     GltfText gltf = one_triangle();
     gltf.nodes = R"({"mesh":0},{"mesh":0,"translation":[0,0,5]},{"mesh":0,"translation":[0,0,9]})";

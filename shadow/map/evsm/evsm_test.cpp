@@ -131,6 +131,17 @@ TEST(Evsm, TheNegativeWarpAnswersWhereTheKernelReachesBeyondTheReceiver) {
     EXPECT_EQ(gn_evsm_visible(moments, 0.5F, 0, params), 1.0F);
 }
 
+TEST(Evsm, ADeviationIsWorthTheSameAtEveryDepth) {
+    // One deviation behind a flat occluder Chebyshev's bound is a half, warped or not: the warp's slope goes with its value.
+    for (const float depth : {0.2F, 0.5F, 0.8F}) {
+        GnEvsmParams params = exact(GN_EVSM_TWO);
+        params.exponent = 10;
+        const Kernel flat{{depth}};
+        // The warp bends by two hundredths over the deviation, which moves the half by half of that.
+        EXPECT_NEAR(gn_evsm_visible(flat.warped(params), depth + 0.001F, 0.001F, params), 0.5F, 0.01F) << depth;
+    }
+}
+
 TEST(Evsm, BleedingOfThreePlanesFallsWithTheExponent) {
     using namespace scenes::stack_scene;
     const auto depth = [](double y) { return static_cast<float>((10 + height_a - y) / 20); };

@@ -67,6 +67,10 @@ GN_FN float gn_lvsm_transition(float beyond, float reach) {
     return reach > 0.0f ? smoothstep(0.0f, reach, beyond) : 1.0f;
 }
 
+GN_FN float gn_lvsm_between(float nearer, float farther, float beyond, float reach) {
+    return mix(nearer, farther, gn_lvsm_transition(beyond, reach));
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
@@ -102,7 +106,7 @@ float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected 
     float v = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i, params);
     if (i > 0 && projected.depth - near_split < reach) {
         float nearer = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i - 1, params);
-        v = mix(nearer, v, gn_lvsm_transition(projected.depth - near_split, reach));
+        v = gn_lvsm_between(nearer, v, projected.depth - near_split, reach);
     }
     return v;
 }

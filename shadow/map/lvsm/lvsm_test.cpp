@@ -40,6 +40,25 @@ GnLloydSplits relax(int layers, int iterations) {
     return splits;
 }
 
+TEST(Lvsm, AnIntervalIsStretchedOverTheWholeRange) {
+    const vec2 interval(0.2F, 0.6F);
+    EXPECT_EQ(gn_lvsm_warp(0.2F, interval), 0.0F);
+    EXPECT_NEAR(gn_lvsm_warp(0.3F, interval), 0.25F, 1e-6);
+    EXPECT_NEAR(gn_lvsm_warp(0.6F, interval), 1.0F, 1e-6);
+    EXPECT_EQ(gn_lvsm_warp(0.1F, interval), 0.0F);
+    EXPECT_EQ(gn_lvsm_warp(0.9F, interval), 1.0F);
+}
+
+TEST(Lvsm, LayersReachOverTheirSplitsAndRelaxedOnesLieBehindTheirSurface) {
+    const GnLvsmParams params{.layers = 3, .overlap = 0.06F};
+    EXPECT_EQ(gn_lvsm_interval(0, 0, 0.3F, params), vec2(0, 0.3F + 0.02F));
+    EXPECT_EQ(gn_lvsm_interval(1, 0.3F, 0.6F, params), vec2(0.3F - 0.02F, 0.6F + 0.02F));
+    EXPECT_EQ(gn_lvsm_interval(2, 0.6F, 1, params), vec2(0.6F - 0.02F, 1));
+    EXPECT_EQ(gn_lvsm_behind(0.5F, 1, params), 0.5F + 0.02F);
+    EXPECT_EQ(gn_lvsm_behind(0.0F, 0, params), 0.0F);
+    EXPECT_EQ(gn_lvsm_behind(1.0F, 3, params), 1.0F);
+}
+
 TEST(Lvsm, OneLayerIsAVarianceMap) {
     const GnLvsmParams params{.layers = 1, .format = GN_LVSM_FLOAT32, .bleeding = 0};
     const vec2 interval = gn_lvsm_interval(0, 0, 1, params);
@@ -104,6 +123,12 @@ TEST(Lvsm, EmptySplitTeleportsIntoTheHeaviestCluster) {
     EXPECT_NEAR(splits.at[1], 0.02, 2e-3);
     EXPECT_NEAR(splits.at[2], 0.1, 2e-3);
     EXPECT_NEAR(splits.at[3], 0.3, 2e-3);
+    // Mirrored, the first and second start without one, and make room from the other side.
+    set_histogram({{0.98F, 4}, {0.9F, 4}, {0.7F, 2}});
+    const GnLloydSplits mirrored = relax(4, 8);
+    EXPECT_NEAR(mirrored.at[1], 0.7, 2e-3);
+    EXPECT_NEAR(mirrored.at[2], 0.9, 2e-3);
+    EXPECT_NEAR(mirrored.at[3], 0.98, 2e-3);
 }
 
 TEST(Lvsm, RelaxationKeepsTheOrderAndNeverGrowsTheError) {
@@ -221,6 +246,9 @@ TEST(Lvsm, TransitionsBeginAtTheSplit) {
     EXPECT_EQ(gn_lvsm_transition(0.1F, 0.1F), 1);
     EXPECT_NEAR(gn_lvsm_transition(0.05F, 0.1F), 0.5, 1e-6);
     EXPECT_EQ(gn_lvsm_transition(0, 0), 1);
+    // At the split the nearer layer answers alone, at the end of the transition the farther.
+    EXPECT_EQ(gn_lvsm_between(0.2F, 0.8F, 0, 0.1F), 0.2F);
+    EXPECT_EQ(gn_lvsm_between(0.2F, 0.8F, 0.1F, 0.1F), 0.8F);
 }
 
 TEST(LvsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
