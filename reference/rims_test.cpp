@@ -61,16 +61,6 @@ TEST(Rims, SurroundingsAreStretchedAlongTheSunsRays) {
     EXPECT_FALSE(beside(truth, edge - 1.1F, across * 0.5F, vec3(0, 0, 0.1F), sun_from(to_sun)));
 }
 
-TEST(Rims, WhatLiesUnderTheSamplesSurfaceIsNone) {
-    // Rays begin in the floor's plane, however deep beneath it the surroundings reach across a slanting sun.
-    QuadScene quads = level_floor();
-    quads.add(vec3(-10, -0.3F, 10), vec3(20, 0, 0), vec3(0, 0, -20));
-    finish_scene(quads.scene);
-    const vec3 across(0.5F, -std::sqrt(0.75F), 0);
-    const GnLight sun = sun_from(vec3(std::sqrt(0.75F), 0.5F, 0));
-    EXPECT_FALSE(beside(Truth(quads.scene), 0, across, vec3(0, 0, 0.1F), sun));
-}
-
 TEST(Rims, TheSamplesOwnSurfaceIsNone) {
     // A bare floor; a slope that rises from the floor at 45 degrees; a lit wall that it meets at a right angle.
     const vec3 to_sun = glm::normalize(vec3(-1, 1, 0));

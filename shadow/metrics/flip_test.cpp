@@ -106,6 +106,7 @@ TEST(FlipColor, PublishedColours) {
     EXPECT_LT(glm::length(lab({1, 0, 0}) - vec3(53.24F, 80.09F, 67.20F)), 0.05F);
     EXPECT_LT(glm::length(lab({0, 1, 0}) - vec3(87.73F, -86.18F, 83.18F)), 0.05F);
     EXPECT_LT(glm::length(lab({0, 0, 1}) - vec3(32.30F, 79.19F, -107.86F)), 0.05F);
+    EXPECT_NEAR(lab_from_xyz(vec3(0.001F)).x, 0.9033F, 1e-4F);  // the linear toe: L* = 903.3 Y
     EXPECT_LT(glm::length(lab(vec3(0))), 1e-4F);
     // YCxCz equals L*a*b* at white and is linear: there and back is the identity.
     const vec3 rgb(0.2F, 0.7F, 0.4F);

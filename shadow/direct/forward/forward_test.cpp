@@ -68,17 +68,19 @@ TEST(Forward, ATexelReturnsToWhereItWasSeen) {
 TEST(ForwardRendered, ConvergesToTheTracedHardShadow) {
     // The blurred rim is as wide as a texel: its squared error halves with every doubling, give or take the staircase.
     for (const char* scene : {"contact", "slab:hard=1", "contact:light=point"}) {
-        double coarsest = 0, before = 1, mismatch = 0;
+        double coarsest = 0, before = 1, mismatch = 0, edge = 0;
         for (const int resolution : {128, 256, 512, 1024}) {
             const auto c = test::compare(scene, fmt::format("forward,resolution={}", resolution),
                                          {.width = 256, .height = 256, .samples = 1});
             EXPECT_LT(*c.errors.rmse, 0.9 * before) << scene << " at " << resolution;
             before = *c.errors.rmse;
             mismatch = *c.errors.mismatch;
+            edge = *c.errors.edge;
             coarsest = resolution == 128 ? mismatch : coarsest;
         }
         EXPECT_LT(mismatch, 0.5 * coarsest) << scene;
-        EXPECT_LT(mismatch, 0.005) << scene;
+        // An edge marks the pixels on both of its sides; at 1024 texels, half a pixel wide, a quarter of them may be wrong.
+        EXPECT_LT(mismatch, 0.25 * edge) << scene;
     }
 }
 
@@ -87,7 +89,8 @@ TEST(ForwardRendered, LightsAnUnoccludedPlaneWhole) {
         for (const char* scene : {"tilted:angle=0", "tilted:angle=60"}) {
             const auto c = test::compare(scene, std::string("forward,resolution=256") + options,
                                          {.width = 96, .height = 96, .samples = 1});
-            EXPECT_LE(*c.errors.acne, 0.02) << scene << options;
+            // Splats add up in steps of 2^-16 and their share is taken out again: a hundred roundings.
+            EXPECT_LE(*c.errors.acne, 100.0 / 65536) << scene << options;
             for (const float v : c.visibility().values) {
                 ASSERT_TRUE(v >= 0 && v <= 1) << v;
             }

@@ -46,8 +46,10 @@ TEST(Cube, EveryDirectionFallsInsideItsFaceWithRoomForTheKernel) {
 TEST(Cube, NoSeamBetweenFaces) {
     const auto c = test::compare("overlap:light=point,hard=1", "hard,placement=cube,resolution=512");
     const auto fitted = test::compare("overlap:light=point,hard=1", "hard,placement=fit,resolution=512");
-    EXPECT_LE(*c.errors.acne, 1e-3 + *fitted.errors.acne);
-    EXPECT_LE(*c.errors.mismatch, 4 * *fitted.errors.mismatch + 1e-3);
+    // Both maps measure 0 here; four samples on the rod's edge may fall to the other side of a texel.
+    const double few = 4 / static_cast<double>(c.errors.samples);
+    EXPECT_LE(*c.errors.acne, few + *fitted.errors.acne);
+    EXPECT_LE(*c.errors.mismatch, few + *fitted.errors.mismatch);
 }
 
 constexpr const char* equal = "pcf,pcf.size=5,placement=cube,resolution=512";

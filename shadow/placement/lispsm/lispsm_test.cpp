@@ -267,7 +267,8 @@ TEST_P(WarpedMap, CasterBeforeTheNearPlaneStillCasts) {
         dark += c.truth.counted[i] != 0 && c.truth.visibility[i] == 0 ? 1 : 0;
     }
     EXPECT_GT(dark, 200U);
-    EXPECT_LT(*c.errors.leak, 0.05);
+    // What is wholly dark lies half a penumbra from the edge of a hard shadow.
+    EXPECT_EQ(*c.errors.leak, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Placements, WarpedMap, ::testing::Values("lispsm", "tsm", "psm"));
