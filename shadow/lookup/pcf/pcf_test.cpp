@@ -52,6 +52,16 @@ TEST(Pcf, WeightsOfEveryGridSumToOne) {
     }
 }
 
+TEST(Pcf, KernelsOfWholeTexelsAreCentredToHalfATexel) {
+    for (int size = 1; size <= 6; ++size) {
+        for (float t = 10; t < 12; t += 0.09F) {
+            const int first = gn_pcf_first(GN_PCF_NXN, size, t);
+            EXPECT_LE(std::abs(static_cast<float>(first) + 0.5F * static_cast<float>(size) - t), 0.5F)
+                << size << " at " << t;
+        }
+    }
+}
+
 TEST(Pcf, BilinearGridIsTheBoxIntegralOfAStraightEdge) {
     // Texels left of 20 are lit. A box of n texels around t covers exactly the share left of the edge.
     for (const int size : {1, 2, 3, 5, 8}) {
