@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/lookup/silhouette/silhouette.glsl"
 
+#include "shadow/view/read_back.h"
 #include "tests/rig.h"
 
 #include <random>
@@ -51,6 +52,62 @@ TEST(Silhouette, StraightEdgesAreExact) {
         }
     }
     EXPECT_GT(asked, 15000);
+}
+
+TEST(SilhouetteLookup, TapsStayInTheirViewsRectangle) {
+    // Two views share a layer of 8 x 4 cells: to the left nothing casts, to the right everything does. The receiver lies in
+    // the last column of the left view, beyond its cell's point: the corner there belongs to the other view.
+    std::vector<vec2> cells;
+    for (int i = 0; i < 32; ++i) {
+        cells.emplace_back(i % 8 < 4 ? 1.0F : 0.0F, gn_silhouette_pack(vec2(0.1F, 0.5F)));
+    }
+    Texture2D map = upload_texture(test::device(),
+                                   {.name = "cells",
+                                    .format = VK_FORMAT_R32G32_SFLOAT,
+                                    .width = 8,
+                                    .height = 4,
+                                    .layers = 1,
+                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT},
+                                   std::as_bytes(std::span(cells)));
+    const std::string text = R"(
+#include "shadow/lookup/silhouette/silhouette.glsl"
+layout(local_size_x = 1) in;
+layout(binding = 0) uniform sampler2DArray map;
+layout(binding = 1, r32f) uniform writeonly image2D result;
+void main() {
+    GnReceiver receiver;
+    GnProjected p;
+    p.uv_ts = vec2(3.9 / 8.0, 2.2 / 8.0);
+    p.texel_ts = 1.0 / 8.0;
+    p.layer = 0;
+    p.depth = 0.5;
+    p.bounds_ts = vec4(0.0, 0.0, 0.5, 0.5);
+    p.plane_slope = p.plane_fall = p.plane_curve = vec2(0.0);
+    p.cone = p.cone_share = 0.0;
+    GnBias bias;
+    bias.receiver_plane = 0;
+    imageStore(result, ivec2(0), vec4(gn_silhouette_visibility(receiver, p, bias, map)));
+}
+)";
+    FrameGraph graph(test::device());
+    const TextureHandle source = graph.import(map);
+    const TextureHandle result =
+        graph.create({.name = "result", .format = VK_FORMAT_R32_SFLOAT, .width = 1, .height = 1});
+    graph.add_pass(
+        "look up",
+        [&](PassBuilder& pass) {
+            pass.sample(source);
+            pass.storage_write(result);
+        },
+        [=](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "silhouette-lookup", text}, {}});
+            r.set("map", source);
+            r.set_storage("result", result);
+            r.dispatch(1, 1);
+        });
+    graph.keep(result);
+    graph.execute(false);
+    EXPECT_EQ(read_image(graph, result).values.at(0), 1.0F);
 }
 
 TEST(SilhouetteRendered, StraightEdgesMatchTheTraceWhereHardIsAStaircase) {
