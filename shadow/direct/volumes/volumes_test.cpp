@@ -444,6 +444,23 @@ TEST(VolumesMasked, a_masked_quad_casts_as_a_whole_or_not_at_all) {
     EXPECT_TRUE(device().messages().empty());
 }
 
+TEST(VolumesNested, hundreds_of_volumes_over_a_sample_are_shadow) {
+    // Sheets above each other: every one hides the light from the ground once more. 256 and 512 are 0 in eight bits.
+    for (const int sheets : {255, 256, 257, 512, 1100}) {
+        SceneBuilder b;
+        b.ground(10);
+        for (int i = 0; i < sheets; ++i) {
+            const float y = 1.0F + 0.001F * static_cast<float>(i);
+            b.quad({-1, y, 1}, {1, y, 1}, {1, y, -1}, {-1, y, -1});
+        }
+        b.light(sun({1, -1, 0})).camera({0, 4, 5}, {0, 0, 0});
+        const std::vector<Comparison> results =
+            render_and_judge(b.scene(), direct_recipe(parts::direct_volumes()), 96, 96);
+        EXPECT_EQ(results[0].wrong, 0U) << sheets << " sheets: " << results[0].first;
+        EXPECT_GT(results[0].shadowed, 100U);
+    }
+}
+
 TEST(VolumesAnalytic, built_in_scenes_with_points_for_lights_have_no_mismatch) {
     for (const char* name :
          {"half-plane", "slab", "stack", "overlap", "tilted", "contact", "fence", "corridor", "duel"}) {
