@@ -2,6 +2,7 @@
 #include "reference/occluders.h"
 
 #include "base/error.h"
+#include "shadow/scene/casting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,7 @@ void on_embree_error(void* /*context*/, RTCError code, const char* message) {
 struct Occluders::Query {
     RTCIntersectContext context;
     const Occluders* self;
+    const Blockers* blockers;
     dvec3 p_ws;
 };
 
@@ -64,14 +66,11 @@ struct Occluders::SeatQuery {
 };
 
 Occluders::Occluders(const Scene& scene) : scene_(scene) {
-    // Remember which triangles need their alpha looked up.
-    material_.assign(scene.triangles.size(), -1);
-    for (const Object& object : scene.objects) {
-        const Material& material = scene.materials.at(static_cast<std::size_t>(object.material));
-        if (material.alpha_mode != AlphaMode::opaque) {
-            const auto first = material_.begin() + object.first_triangle;
-            std::fill(first, first + object.triangle_count, object.material);
-        }
+    // Remember whose every triangle is.
+    object_.assign(scene.triangles.size(), 0);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const auto first = object_.begin() + scene.objects[i].first_triangle;
+        std::fill(first, first + scene.objects[i].triangle_count, static_cast<std::uint32_t>(i));
     }
 
     device_ = rtcNewDevice(nullptr);
@@ -137,11 +136,11 @@ bool Occluders::coplanar(std::uint32_t triangle, dvec3 p_ws) const {
 }
 
 bool Occluders::transparent(std::uint32_t triangle, float u, float v) const {
-    const int index = material_[triangle];
-    if (index < 0) {
+    const Object& object = scene_.objects[object_[triangle]];
+    const Material& material = scene_.materials[static_cast<std::size_t>(object.material)];
+    if (material.alpha_mode == AlphaMode::opaque) {
         return false;
     }
-    const Material& material = scene_.materials[static_cast<std::size_t>(index)];
     float alpha = material.base_color.a;
     const auto texture = static_cast<std::size_t>(material.base_color_texture);
     if (material.base_color_texture >= 0 && texture < scene_.textures.size() &&
@@ -153,6 +152,24 @@ bool Occluders::transparent(std::uint32_t triangle, float u, float v) const {
     return alpha < (material.alpha_mode == AlphaMode::blend ? 0.5F : material.alpha_cutoff);
 }
 
+bool Occluders::seen_from_behind(std::uint32_t triangle, dvec3 towards_light) const {
+    if (!is_single_sided(scene_, scene_.objects[object_[triangle]])) {
+        return false;
+    }
+    const uvec3 t = scene_.triangles[triangle];
+    const dvec3 a(scene_.positions_ws[t.x]);
+    const dvec3 normal = glm::cross(dvec3(scene_.positions_ws[t.y]) - a, dvec3(scene_.positions_ws[t.z]) - a);
+    return glm::dot(normal, towards_light) < 0.0;
+}
+
+Blockers Occluders::blockers(const Light* light) const {
+    Blockers found(scene_.objects.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        found[i] = casts(scene_, i, light) ? 1 : 0;
+    }
+    return found;
+}
+
 void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
     const auto& query = *reinterpret_cast<const Query*>(arguments->context);
     for (unsigned i = 0; i < arguments->N; ++i) {
@@ -162,7 +179,12 @@ void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
         const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
         const float u = RTCHitN_u(arguments->hit, arguments->N, i);
         const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-        if (query.self->transparent(triangle, u, v) || query.self->coplanar(triangle, query.p_ws)) {
+        const dvec3 towards_light(RTCRayN_dir_x(arguments->ray, arguments->N, i),
+                                  RTCRayN_dir_y(arguments->ray, arguments->N, i),
+                                  RTCRayN_dir_z(arguments->ray, arguments->N, i));
+        if ((*query.blockers)[query.self->object_[triangle]] == 0 ||
+            query.self->seen_from_behind(triangle, towards_light) || query.self->transparent(triangle, u, v) ||
+            query.self->coplanar(triangle, query.p_ws)) {
             arguments->valid[i] = 0;
         }
     }
@@ -231,8 +253,8 @@ Seat Occluders::seat(dvec3 p_ws, dvec3 n_ws) const {
 }
 
 template <int Width>
-void Occluders::trace(const Seat& seat, const int* valid, RTCRayNt<Width>& rays) const {
-    Query query{{}, this, seat.p_ws};
+void Occluders::trace(const Seat& seat, const Blockers& blockers, const int* valid, RTCRayNt<Width>& rays) const {
+    Query query{{}, this, &blockers, seat.p_ws};
     rtcInitIntersectContext(&query.context);
     query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if constexpr (Width == 16) {
@@ -246,9 +268,9 @@ void Occluders::trace(const Seat& seat, const int* valid, RTCRayNt<Width>& rays)
     }
 }
 
-template void Occluders::trace<1>(const Seat&, const int*, RTCRayNt<1>&) const;
-template void Occluders::trace<4>(const Seat&, const int*, RTCRayNt<4>&) const;
-template void Occluders::trace<8>(const Seat&, const int*, RTCRayNt<8>&) const;
-template void Occluders::trace<16>(const Seat&, const int*, RTCRayNt<16>&) const;
+template void Occluders::trace<1>(const Seat&, const Blockers&, const int*, RTCRayNt<1>&) const;
+template void Occluders::trace<4>(const Seat&, const Blockers&, const int*, RTCRayNt<4>&) const;
+template void Occluders::trace<8>(const Seat&, const Blockers&, const int*, RTCRayNt<8>&) const;
+template void Occluders::trace<16>(const Seat&, const Blockers&, const int*, RTCRayNt<16>&) const;
 
 }  // namespace gn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene as Embree sees it, with the question that the truth asks: is the open segment from p towards the light
-// blocked? Both sides of every triangle block; alpha-tested texels that are not there do not.
+// blocked? Both sides of a triangle block, or the front alone where its material has one side; alpha-tested texels that are
+// not there do not, nor does what casts no shadow of the light.
 //
 // Self-intersection. In exact arithmetic a ray that starts on a plane never meets that plane again, so a hit on any
 // triangle whose plane holds p is a rounding error and is rejected, at whatever distance. "Holds" is decided in double
@@ -43,6 +44,9 @@ struct Seat {
     vec3 origin_ws;  ///< a hair above it
 };
 
+/// Which objects block: one byte an object, 1 where it does.
+using Blockers = std::vector<std::uint8_t>;
+
 class Occluders {
   public:
     explicit Occluders(const Scene& scene);
@@ -54,9 +58,13 @@ class Occluders {
     [[nodiscard]] int width() const { return width_; }
     /// Moves p along its normal onto the nearest triangle that faces along it, if one is within precision.
     [[nodiscard]] Seat seat(dvec3 p_ws, dvec3 n_ws) const;
+    /// What casts shadows of a light; of any light where it is null.
+    [[nodiscard]] Blockers blockers(const Light* light) const;
+    /// Nothing at all.
+    [[nodiscard]] Blockers no_blockers() const { return Blockers(scene_.objects.size(), 0); }
     /// Traces a packet from one seat; afterwards tfar < 0 where something blocks. Width is 1, 4, 8 or 16.
     template <int Width>
-    void trace(const Seat& seat, const int* valid, RTCRayNt<Width>& rays) const;
+    void trace(const Seat& seat, const Blockers& blockers, const int* valid, RTCRayNt<Width>& rays) const;
 
   private:
     struct Query;
@@ -66,6 +74,7 @@ class Occluders {
     void copy_geometry();
     [[nodiscard]] bool coplanar(std::uint32_t triangle, dvec3 p_ws) const;
     [[nodiscard]] bool transparent(std::uint32_t triangle, float u, float v) const;
+    [[nodiscard]] bool seen_from_behind(std::uint32_t triangle, dvec3 towards_light) const;
     static void reject(const RTCFilterFunctionNArguments* arguments);
     static void find_seat(const RTCFilterFunctionNArguments* arguments);
 
@@ -73,7 +82,7 @@ class Occluders {
     RTCDevice device_ = nullptr;
     RTCScene bvh_ = nullptr;
     int width_ = 4;
-    std::vector<int> material_;  ///< per triangle, or -1 where it is opaque
+    std::vector<std::uint32_t> object_;  ///< per triangle
     double largest_coordinate_ = 0;
 };
 

@@ -25,6 +25,7 @@ std::array<vec2, rim_rays> spread_points() {
 /// The rays around one sample.
 struct Around {
     const Occluders& occluders;
+    const Blockers& blockers;
     Seat seat;
     vec3 n_ws;
     Surroundings axes;
@@ -51,7 +52,7 @@ struct Around {
                 aim_from(rays, lane, points[first + static_cast<std::size_t>(lane)]);
                 valid[static_cast<std::size_t>(lane)] = rays.tnear[lane] < rays.tfar[lane] ? -1 : 0;
             }
-            occluders.trace<16>(seat, valid.data(), rays);
+            occluders.trace<16>(seat, blockers, valid.data(), rays);
             if (std::any_of(std::begin(rays.tfar), std::end(rays.tfar), [](float end) { return end < 0.0F; })) {
                 return true;
             }
@@ -60,8 +61,8 @@ struct Around {
     }
 };
 
-bool has_rim(const Occluders& occluders, vec4 position_ws, vec4 normal_ws, const Surroundings& axes,
-             const GnLight& light, std::span<const vec2> points) {
+bool has_rim(const Occluders& occluders, const Blockers& blockers, vec4 position_ws, vec4 normal_ws,
+             const Surroundings& axes, const GnLight& light, std::span<const vec2> points) {
     const vec3 p_ws(position_ws);
     const vec3 n_ws(normal_ws);
     const bool asked = glm::length(axes.a_ws) + glm::length(axes.b_ws) > 0.0F;
@@ -69,25 +70,27 @@ bool has_rim(const Occluders& occluders, vec4 position_ws, vec4 normal_ws, const
         return false;
     }
     const Seat seat = occluders.seat(dvec3(p_ws), glm::normalize(dvec3(n_ws)));
-    return Around{occluders, seat, glm::normalize(n_ws), axes, light}.any_blocked(points);
+    return Around{occluders, blockers, seat, glm::normalize(n_ws), axes, light}.any_blocked(points);
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const vec4> position_ws,
                                     std::span<const vec4> normal_ws, std::span<const Surroundings> around,
-                                    const GnLight& light, int threads) {
+                                    const Light& light, int threads) {
     GN_CHECK_EQ(position_ws.size(), normal_ws.size());
     GN_CHECK_EQ(position_ws.size(), around.size());
     static const std::array<vec2, rim_rays> points = spread_points();
     std::vector<std::uint8_t> rims(around.size(), 0);
+    const Blockers blockers = occluders.blockers(&light);
     std::atomic<std::size_t> next_tile = 0;
     std::atomic<bool> stop = false;
     const auto work = [&](bool /*first*/) {
         for (std::size_t tile = next_tile++; tile * tile_size < rims.size() && !stop; tile = next_tile++) {
             const std::size_t end = std::min((tile + 1) * tile_size, rims.size());
             for (std::size_t i = tile * tile_size; i < end; ++i) {
-                rims[i] = has_rim(occluders, position_ws[i], normal_ws[i], around[i], light, points) ? 1 : 0;
+                rims[i] =
+                    has_rim(occluders, blockers, position_ws[i], normal_ws[i], around[i], light.shape, points) ? 1 : 0;
             }
         }
     };

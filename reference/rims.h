@@ -26,6 +26,6 @@ inline constexpr float rim_clearance = 2;
 /// 1 where some point around a sample is hidden from the light's centre; 0 elsewhere, and where both axes are null.
 std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const vec4> position_ws,
                                     std::span<const vec4> normal_ws, std::span<const Surroundings> around,
-                                    const GnLight& light, int threads);
+                                    const Light& light, int threads);
 
 }  // namespace gn

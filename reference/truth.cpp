@@ -60,12 +60,13 @@ struct Estimate {
     double visibility = 0, standard_error = 0, irradiance = 0;
 };
 
-Estimate trace_single(const Occluders& occluders, const Seat& seat, const LightSampler& sampler, vec3 n_ws) {
+Estimate trace_single(const Occluders& occluders, const Blockers& blockers, const Seat& seat,
+                      const LightSampler& sampler, vec3 n_ws) {
     alignas(16) RTCRayNt<1> ray;
     const LightPoint point = sampler.centre();
     aim<1>(ray, 0, seat.origin_ws, point);
     const int valid = -1;
-    occluders.trace<1>(seat, &valid, ray);
+    occluders.trace<1>(seat, blockers, &valid, ray);
     const double visible = ray.tfar[0] < 0.0F ? 0.0 : 1.0;
     return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
 }
@@ -89,8 +90,8 @@ Estimate combine(std::span<const double> visible, const Plan& plan) {
 }
 
 template <int Width>
-Estimate trace_area(const Occluders& occluders, const Plan& plan, std::size_t view_sample, const Seat& seat,
-                    const LightSampler& sampler, vec3 n_ws, bool integral) {
+Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const Plan& plan, std::size_t view_sample,
+                    const Seat& seat, const LightSampler& sampler, vec3 n_ws, bool integral) {
     alignas(4 * Width) RTCRayNt<Width> rays;
     alignas(4 * Width) std::array<int, Width> valid{};
     std::array<std::uint32_t, Width> batch_of{};
@@ -103,7 +104,7 @@ Estimate trace_area(const Occluders& occluders, const Plan& plan, std::size_t vi
     const auto flush = [&] {
         std::fill(valid.begin(), valid.begin() + lane, -1);
         std::fill(valid.begin() + lane, valid.end(), 0);
-        occluders.trace<Width>(seat, valid.data(), rays);
+        occluders.trace<Width>(seat, blockers, valid.data(), rays);
         for (int i = 0; i < lane; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (rays.tfar[i] >= 0.0F) {
@@ -143,6 +144,7 @@ struct Job {
     const Plan& plan;
     bool integral;
     TruthResult& result;
+    Blockers blockers, nothing;
     std::atomic<std::size_t> next_tile = 0, done = 0;
     std::atomic<bool> stop = false;
 
@@ -154,8 +156,10 @@ struct Job {
         }
         const Seat seat = occluders.seat(dvec3(p_ws), glm::normalize(dvec3(n_ws)));
         const LightSampler sampler(light, seat.origin_ws);
-        const Estimate estimate = estimate_at(i, seat, sampler, n_ws);
-        result.counted[i] = 1;
+        // On what receives no shadow nothing blocks, and no technique is measured.
+        const bool receives = position_ws[i].w < 1.5F;
+        const Estimate estimate = estimate_at(i, receives ? blockers : nothing, seat, sampler, n_ws);
+        result.counted[i] = receives ? 1 : 0;
         result.visibility[i] = static_cast<float>(estimate.visibility);
         result.standard_error[i] = static_cast<float>(estimate.standard_error);
         if (integral) {
@@ -163,14 +167,15 @@ struct Job {
         }
     }
 
-    Estimate estimate_at(std::size_t i, const Seat& seat, const LightSampler& sampler, vec3 n_ws) const {
+    Estimate estimate_at(std::size_t i, const Blockers& by, const Seat& seat, const LightSampler& sampler,
+                         vec3 n_ws) const {
         if (sampler.single()) {
-            return trace_single(occluders, seat, sampler, n_ws);
+            return trace_single(occluders, by, seat, sampler, n_ws);
         }
         switch (occluders.width()) {
-            case 16: return trace_area<16>(occluders, plan, i, seat, sampler, n_ws, integral);
-            case 8: return trace_area<8>(occluders, plan, i, seat, sampler, n_ws, integral);
-            default: return trace_area<4>(occluders, plan, i, seat, sampler, n_ws, integral);
+            case 16: return trace_area<16>(occluders, by, plan, i, seat, sampler, n_ws, integral);
+            case 8: return trace_area<8>(occluders, by, plan, i, seat, sampler, n_ws, integral);
+            default: return trace_area<4>(occluders, by, plan, i, seat, sampler, n_ws, integral);
         }
     }
 
@@ -199,7 +204,7 @@ struct Truth::Impl {
 Truth::Truth(const Scene& scene) : impl_(new Impl{Occluders(scene)}) {}
 Truth::~Truth() = default;
 
-TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const GnLight& light,
+TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const Light& light,
                          const TruthOptions& options, const std::function<void(double)>& progress) const {
     GN_CHECK_EQ(position_ws.size(), normal_ws.size());
     const auto start = std::chrono::steady_clock::now();
@@ -209,7 +214,16 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
     result.standard_error.assign(position_ws.size(), 0.0F);
     result.counted.assign(position_ws.size(), 0);
     result.irradiance.assign(options.integral ? position_ws.size() : 0, 0.0F);
-    Job job{impl_->occluders, position_ws, normal_ws, light, plan, options.integral, result};
+    const Occluders& occluders = impl_->occluders;
+    Job job{occluders,
+            position_ws,
+            normal_ws,
+            light.shape,
+            plan,
+            options.integral,
+            result,
+            occluders.blockers(&light),
+            occluders.no_blockers()};
     in_parallel(
         options.threads, [&](bool first) { job.work(first ? progress : std::function<void(double)>{}); },
         [&] { job.stop = true; });
@@ -229,7 +243,7 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
 }
 
 std::vector<std::uint8_t> Truth::blocked_around(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
-                                                std::span<const Surroundings> around, const GnLight& light,
+                                                std::span<const Surroundings> around, const Light& light,
                                                 int threads) const {
     return find_rims(impl_->occluders, position_ws, normal_ws, around, light, threads);
 }
@@ -244,7 +258,7 @@ bool Truth::blocked(dvec3 p_ws, dvec3 q_ws) const {
     alignas(16) RTCRayNt<1> ray;
     aim<1>(ray, 0, origin_ws, {vec3(segment / length), static_cast<float>(length)});
     const int valid = -1;
-    impl_->occluders.trace<1>({p_ws, origin_ws}, &valid, ray);
+    impl_->occluders.trace<1>({p_ws, origin_ws}, impl_->occluders.blockers(nullptr), &valid, ray);
     return ray.tfar[0] < 0.0F;
 }
 

@@ -20,7 +20,8 @@ struct TruthOptions {
 struct TruthResult {
     std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
     std::vector<float> standard_error;  ///< per sample, of `visibility`
-    std::vector<std::uint8_t> counted;  ///< 1 where gn_counted holds and a surface is seen
+    /// 1 where gn_counted holds and a surface is seen that receives shadows; where it receives none, V = 1 and 0.
+    std::vector<std::uint8_t> counted;
     /// With options.integral: [EASW09] eq. 1.3 without the material, lux; else empty. Range windows are left to shading.
     std::vector<float> irradiance;
     double mean_standard_error = 0;  ///< mean of standard_error over counted samples
@@ -41,15 +42,28 @@ class Truth {
     Truth(const Truth&) = delete;
     Truth& operator=(const Truth&) = delete;
     /// position_ws (w = 1: surface) and normal_ws per view sample. progress(0..1), when given, is called from one thread.
+    /// What the light spares, and what was told not to cast, blocks nothing.
+    [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
+                                    const Light& light, const TruthOptions& options,
+                                    const std::function<void(double)>& progress = {}) const;
+    /// The same for a light that spares nothing.
     [[nodiscard]] TruthResult trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
                                     const GnLight& light, const TruthOptions& options,
-                                    const std::function<void(double)>& progress = {}) const;
+                                    const std::function<void(double)>& progress = {}) const {
+        return trace(position_ws, normal_ws, Light{.name = "", .shape = light, .spared = {}}, options, progress);
+    }
     /// 1 where a part of the scene other than the sample's own surface hides the light's centre from some place around the
     /// sample: the sample is beside a shadow, or in it. See reference/rims.h. threads as TruthOptions::threads.
     [[nodiscard]] std::vector<std::uint8_t> blocked_around(std::span<const vec4> position_ws,
                                                            std::span<const vec4> normal_ws,
-                                                           std::span<const Surroundings> around, const GnLight& light,
+                                                           std::span<const Surroundings> around, const Light& light,
                                                            int threads = 0) const;
+    [[nodiscard]] std::vector<std::uint8_t> blocked_around(std::span<const vec4> position_ws,
+                                                           std::span<const vec4> normal_ws,
+                                                           std::span<const Surroundings> around, const GnLight& light,
+                                                           int threads = 0) const {
+        return blocked_around(position_ws, normal_ws, around, Light{.name = "", .shape = light, .spared = {}}, threads);
+    }
     /// One exact question, for tests: is the segment (p, q) blocked?
     [[nodiscard]] bool blocked(dvec3 p_ws, dvec3 q_ws) const;
 

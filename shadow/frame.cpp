@@ -25,7 +25,11 @@ Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
         visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
                                                           : add_resolve(input, recipe, views, map);
     }
-    return recipe.visibility != nullptr ? recipe.visibility->add_visibility(input, recipe, visibility) : visibility;
+    if (recipe.visibility != nullptr) {
+        visibility = recipe.visibility->add_visibility(input, recipe, visibility);
+    }
+    add_unshadowed(input, visibility);
+    return visibility;
 }
 
 namespace {

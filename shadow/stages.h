@@ -54,7 +54,7 @@ struct ViewSamples {
     uint width = 0, height = 0;
     Camera camera;
     GnViewConstants constants;
-    TextureHandle position;  ///< RGBA32F: p_ws, 1 (surface) or 0 (none)
+    TextureHandle position;  ///< RGBA32F: p_ws, 0 (none), 1 (surface) or 2 (surface that receives no shadow)
     TextureHandle normal;    ///< RGBA32F: geometric normal n_ws towards the camera, w = distance along the view axis
     TextureHandle shading_normal;  ///< RGBA16F: interpolated normal, towards the camera
     TextureHandle albedo;          ///< RGBA8 sRGB: base colour
@@ -67,7 +67,7 @@ struct ViewSamples {
 struct CpuSamples {
     uint width = 0, height = 0;
     Camera camera;
-    std::vector<vec4> position_ws;  ///< w = 1 where a surface is seen
+    std::vector<vec4> position_ws;  ///< w = 1 where a surface is seen, 2 where it receives no shadow
     std::vector<vec4> normal_ws;    ///< xyz geometric, towards the camera; w = distance along the view axis
 };
 

@@ -65,7 +65,7 @@ Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::s
             {.width = width, .height = height, .repeat = 0, .only_light = 0, .picture = false, .history = &history});
         EXPECT_EQ(frame.refused.front(), "");
         const TruthResult truth =
-            tracer.trace(frame.samples.position_ws, frame.samples.normal_ws, scene.lights[0].shape, {.samples = 1});
+            tracer.trace(frame.samples.position_ws, frame.samples.normal_ws, scene.lights[0], {.samples = 1});
         const std::vector<float>& found = frame.visibility.front().values;
         SignedError error = signed_error(found, truth.visibility, truth.counted, width, height);
         walked.rmse += visibility_errors(found, truth.visibility, truth.counted, width, height).rmse.value() /

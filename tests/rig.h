@@ -52,7 +52,7 @@ inline Comparison compare(Scene scene, const std::string& recipe, const Comparis
         device(), gpu, c.scene.camera(options.view), load_recipe(recipe),
         {.width = options.width, .height = options.height, .repeat = 1, .only_light = 0, .picture = false});
     EXPECT_EQ(c.frame.refused.front(), "");
-    c.truth = Truth(c.scene).trace(c.frame.samples.position_ws, c.frame.samples.normal_ws, c.scene.lights.front().shape,
+    c.truth = Truth(c.scene).trace(c.frame.samples.position_ws, c.frame.samples.normal_ws, c.scene.lights.front(),
                                    {.samples = options.samples});
     c.errors = visibility_errors(c.frame.visibility.front().values, c.truth.visibility, c.truth.counted,
                                  static_cast<int>(options.width), static_cast<int>(options.height));

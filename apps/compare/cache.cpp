@@ -51,11 +51,12 @@ void add_scene(Hasher& hasher, const Scene& scene) {
     add_values(hasher, scene.triangles);
     for (const Object& object : scene.objects) {
         hasher.value(object.first_triangle).value(object.triangle_count).value(object.material);
+        hasher.value(object.casts.has_value()).value(object.casts.value_or(true)).value(object.receives);
     }
     for (const Material& m : scene.materials) {
         hasher.bytes(&m.base_color, sizeof m.base_color).bytes(&m.emissive, sizeof m.emissive);
         hasher.value(m.metallic).value(m.roughness).value(m.alpha_mode).value(m.alpha_cutoff);
-        hasher.value(m.base_color_texture).value(m.double_sided);
+        hasher.value(m.base_color_texture).value(m.double_sided).value(m.casts);
     }
     for (const Texture& texture : scene.textures) {
         add_values(hasher, texture.image.rgba);
@@ -63,6 +64,7 @@ void add_scene(Hasher& hasher, const Scene& scene) {
     }
     for (const Light& light : scene.lights) {
         hasher.text(light.name).bytes(&light.shape, sizeof light.shape);
+        add_values(hasher, light.spared);
     }
 }
 

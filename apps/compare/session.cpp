@@ -107,7 +107,7 @@ const Truth& ViewSession::tracer() {
 }
 
 std::vector<std::uint8_t> ViewSession::beside_shadow(std::size_t light, std::span<const Surroundings> around) {
-    return tracer().blocked_around(samples_.position_ws, samples_.normal_ws, around, scene_->lights[light].shape,
+    return tracer().blocked_around(samples_.position_ws, samples_.normal_ws, around, scene_->lights[light],
                                    options_.threads);
 }
 
@@ -116,7 +116,7 @@ TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& sa
     const std::string key = cache.truth_key(key_, samples, light);
     std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height);
     if (!truth) {
-        truth = tracer().trace(samples.position_ws, samples.normal_ws, scene_->lights[light].shape,
+        truth = tracer().trace(samples.position_ws, samples.normal_ws, scene_->lights[light],
                                {.samples = options_.samples, .threads = options_.threads}, progress);
         cache.store(key, *truth, options_.size.width, options_.size.height);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/direct/stage.h"
 
+#include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
 #include <bit>
@@ -53,7 +54,7 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t bytes) {
 
 }  // namespace
 
-std::vector<CasterKind> caster_kinds(const Scene& scene) {
+std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light) {
     // Judge each material once, however many objects wear it.
     std::vector<CasterKind> of_material;
     of_material.reserve(scene.materials.size());
@@ -62,8 +63,9 @@ std::vector<CasterKind> caster_kinds(const Scene& scene) {
     }
     std::vector<CasterKind> kinds;
     kinds.reserve(scene.objects.size());
-    for (const Object& object : scene.objects) {
-        kinds.push_back(of_material[static_cast<std::size_t>(object.material)]);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        kinds.push_back(casts(scene, i, &light) ? of_material[static_cast<std::size_t>(scene.objects[i].material)]
+                                                : CasterKind::absent);
     }
     return kinds;
 }

@@ -18,10 +18,10 @@ namespace gn {
 enum class CasterKind : std::uint8_t {
     opaque,  ///< everywhere: also alpha materials whose alpha nowhere falls below the cutoff
     masked,  ///< where its texture's alpha reaches the cutoff
-    absent,  ///< nowhere: its alpha lies below the cutoff everywhere
+    absent,  ///< nowhere: its alpha lies below the cutoff everywhere, or it casts no shadow of this light
 };
 /// One entry an object. Blended materials count as masked with cutoff 0.5.
-std::vector<CasterKind> caster_kinds(const Scene& scene);
+std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light);
 
 /// Runs of consecutive triangles, the opaque objects joined: what one draw can take.
 struct TriangleRun {

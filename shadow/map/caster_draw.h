@@ -12,6 +12,7 @@ struct CasterDraw {
     LightViews views;  ///< what the shaders see; `layered` draws all of them
     SceneHandles handles;
     const Scene* scene = nullptr;
+    const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
     std::size_t view = 0;
 
     /// What a pass must declare besides its attachments.
@@ -20,6 +21,8 @@ struct CasterDraw {
     void record(Recorder& r) const;
 
   private:
+    /// What is drawn: the view's objects that cast.
+    [[nodiscard]] std::vector<std::uint32_t> objects() const;
     [[nodiscard]] std::uint32_t instances() const {
         return views.layered ? static_cast<std::uint32_t>(views.views.size()) : 1;
     }

@@ -68,7 +68,7 @@ void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& 
         tiles.views.push_back(draw.view);
         tiles.casters.push_back(draw.casters);
     }
-    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, 0};
+    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, &input.light(), 0};
     input.graph.add_pass(
         pass.name,
         [&](PassBuilder& builder) {

@@ -2,6 +2,7 @@
 #include "shadow/map/raster.h"
 
 #include "shadow/map/caster_draw.h"
+#include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
 #include <algorithm>
@@ -212,9 +213,7 @@ void CasterDraw::opaque(Recorder& r, std::span<const std::uint32_t> objects) con
 
 void CasterDraw::opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> objects) const {
     begin(r, false);
-    const std::size_t count = objects.empty() ? scene->objects.size() : objects.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t index = objects.empty() ? static_cast<std::uint32_t>(i) : objects[i];
+    for (const std::uint32_t index : objects) {
         const Object& object = scene->objects[index];
         if (!is_masked(*scene, object)) {
             r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index)});
@@ -241,21 +240,25 @@ void CasterDraw::masked(Recorder& r, std::span<const std::uint32_t> objects) con
     }
 }
 
-void CasterDraw::record(Recorder& r) const {
-    std::vector<std::uint32_t> objects;
-    if (!views.casters.empty()) {
-        // One pass for all layers draws what any of them needs.
-        for (std::size_t i = views.layered ? 0 : view; i <= (views.layered ? views.casters.size() - 1 : view); ++i) {
-            objects.insert(objects.end(), views.casters[i].begin(), views.casters[i].end());
-        }
-        std::sort(objects.begin(), objects.end());
-        objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
-        if (objects.empty()) {
-            return;
-        }
+std::vector<std::uint32_t> CasterDraw::objects() const {
+    if (views.casters.empty()) {
+        return casters(*scene, *light);
     }
-    opaque(r, objects);
-    masked(r, objects);
+    // One pass for all layers draws what any of them needs.
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = views.layered ? 0 : view; i <= (views.layered ? views.casters.size() - 1 : view); ++i) {
+        found.insert(found.end(), views.casters[i].begin(), views.casters[i].end());
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::erase_if(found, [&](std::uint32_t object) { return !casts(*scene, object, light); });
+    return found;
+}
+
+void CasterDraw::record(Recorder& r) const {
+    const std::vector<std::uint32_t> drawn = objects();
+    opaque(r, drawn);
+    masked(r, drawn);
 }
 
 void CasterDraw::declare(PassBuilder& builder) const {
@@ -280,7 +283,7 @@ void add_caster_passes(const FrameInput& input, const Recipe& recipe, const Ligh
         const Load load = cleared[layer] ? Load::keep : Load::clear;
         cleared[layer] = true;
         const Range range = views.layered ? Range{0, 1, 0, views.layers} : one_layer(layer);
-        const CasterDraw draw{pass, recipe, views, input.handles, &input.scene, view};
+        const CasterDraw draw{pass, recipe, views, input.handles, &input.scene, &input.light(), view};
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {

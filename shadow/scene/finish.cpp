@@ -176,6 +176,7 @@ void finish_scene(Scene& scene) {
     }
     complete_cameras(scene);
     complete_lights(scene);
+    complete_casting(scene);
 }
 
 }  // namespace gn

@@ -90,7 +90,9 @@ void write_instance(Scene& scene, const Mesh& mesh, const Instance& instance) {
     Object object{.name = instance.name,
                   .first_triangle = static_cast<std::uint32_t>(scene.triangles.size()),
                   .triangle_count = static_cast<std::uint32_t>(mesh.triangles.size()),
-                  .material = mesh.material};
+                  .material = mesh.material,
+                  .casts = instance.casts,
+                  .receives = instance.receives.value_or(true)};
     for (const uvec3 t : mesh.triangles) {
         scene.triangles.push_back((mirrored ? uvec3(t.x, t.z, t.y) : t) + first_vertex);
     }

@@ -19,23 +19,26 @@ class Builder {
         }
         const tinygltf::Mesh& data = at(file_.data.meshes, node.mesh, file_, "mesh");
         const std::string name = clean_text(!node.name.empty() ? node.name : data.name);
+        const bool lit = node.extensions.count("KHR_lights_punctual") > 0;
+        const Orders orders = read_orders(file_, node.extras, fmt::format("Node '{}'", name), lit);
         if (joints != nullptr) {
             // A posed mesh is already in the world: the node's own matrix plays no part.
             for (const std::size_t mesh : load(data, joints)) {
-                add_instance(mesh, dmat4(1.0), name);
+                add_instance(mesh, dmat4(1.0), name, orders);
             }
             return;
         }
         const auto known = meshes_.find(node.mesh);
         const auto& parts = known != meshes_.end() ? known->second : meshes_[node.mesh] = load(data, nullptr);
         for (const std::size_t mesh : parts) {
-            add_instance(mesh, ws_from_node, name);
+            add_instance(mesh, ws_from_node, name, orders);
         }
     }
 
   private:
     std::vector<std::size_t> load(const tinygltf::Mesh& data, const Joints* joints) {
         std::vector<std::size_t> parts;
+        const Orders of_mesh = read_orders(file_, data.extras, fmt::format("Mesh '{}'", clean_text(data.name)));
         for (const tinygltf::Primitive& primitive : data.primitives) {
             const bool known =
                 primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < file_.data.materials.size();
@@ -51,9 +54,24 @@ class Builder {
             if (!mesh.triangles.empty()) {
                 parts.push_back(model_.meshes.size());
                 model_.meshes.push_back(std::move(mesh));
+                orders_.push_back(of_mesh.over(of_material(material)));
             }
         }
         return parts;
+    }
+
+    // The node wins over the mesh, the mesh over the material.
+    Orders of_material(std::size_t material) {
+        if (material >= file_.data.materials.size()) {
+            return {};
+        }
+        const auto known = of_materials_.find(material);
+        if (known != of_materials_.end()) {
+            return known->second;
+        }
+        const tinygltf::Material& data = file_.data.materials[material];
+        return of_materials_[material] =
+                   read_orders(file_, data.extras, fmt::format("Material '{}'", clean_text(data.name)));
     }
 
     void note_missing_uvs(const tinygltf::Primitive& primitive, std::size_t material) {
@@ -64,19 +82,22 @@ class Builder {
         }
     }
 
-    void add_instance(std::size_t mesh, const dmat4& ws_from_os, const std::string& name) {
+    void add_instance(std::size_t mesh, const dmat4& ws_from_os, const std::string& name, const Orders& of_node) {
         triangles_ += model_.meshes[mesh].triangles.size();
         if (model_.instances.size() >= max_instances || triangles_ > max_triangles) {
             fail("{}: more than {} instances or {} triangles after instancing", file_.shown, max_instances,
                  max_triangles);
         }
-        model_.instances.push_back({mesh, ws_from_os, name});
+        const Orders orders = of_node.over(orders_[mesh]);
+        model_.instances.push_back({mesh, ws_from_os, name, orders.casts, orders.receives});
     }
 
     File& file_;
     Model& model_;
     std::vector<UvUse> uv_uses_;
     std::map<int, std::vector<std::size_t>> meshes_;
+    std::vector<Orders> orders_;  ///< of model_.meshes
+    std::map<std::size_t, Orders> of_materials_;
     std::size_t triangles_ = 0;
 };
 

@@ -66,6 +66,21 @@ struct UvUse {
 
 /// Materials and the textures they use; the last material is the default one.
 std::vector<UvUse> load_materials(File& file, Model& model);
+/// What extras.gnomon of a node, a mesh or a material says about casting and receiving.
+struct Orders {
+    std::optional<bool> casts, receives;
+    /// These, and where they say nothing `others`.
+    [[nodiscard]] Orders over(const Orders& others) const {
+        return {casts.has_value() ? casts : others.casts, receives.has_value() ? receives : others.receives};
+    }
+};
+/// `who` is for the notes: "Node 'lamp'". Nodes that carry a light may have that light's keys too.
+Orders read_orders(File& file, const tinygltf::Value& extras, const std::string& who, bool carries_light = false);
+/// Keys of extras.gnomon that size a light.
+std::span<const char* const> light_keys();
+/// Keys of extras.gnomon that order casting and receiving.
+std::span<const char* const> order_keys();
+
 /// A node's light; nothing where the node has none or it is unusable (with a note).
 std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node);
 std::optional<PlacedCamera> load_camera(File& file, const tinygltf::Node& node, const dmat4& ws_from_node);

@@ -26,15 +26,19 @@ vec4 axis_of(const dmat4& ws_from_node, int column, double sign) {
 
 constexpr std::array known_keys{"radius", "angular_radius", "angular_diameter_deg", "rectangle", "intensity"};
 
-// Sizes by extras.gnomon of the light, then of the node that carries it.
-void apply_extras(File& file, const tinygltf::Value& extras, Light& light) {
+bool is_one_of(std::span<const char* const> keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// Sizes by extras.gnomon of the light, then of the node that carries it, which may also say whether its mesh casts.
+void apply_extras(File& file, const tinygltf::Value& extras, Light& light, bool of_node) {
     if (!extras.IsObject() || !extras.Has("gnomon") || !extras.Get("gnomon").IsObject()) {
         return;
     }
     const tinygltf::Value& sizes = extras.Get("gnomon");
     GnLight& shape = light.shape;
     for (const std::string& key : sizes.Keys()) {
-        if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
+        if (!is_one_of(known_keys, key) && !(of_node && is_one_of(order_keys(), key))) {
             add_note(file.notes, fmt::format("Light '{}': extras.gnomon has no key '{}'; its keys are {}.", light.name,
                                              clean_text(key), fmt::join(known_keys, ", ")));
         }
@@ -69,6 +73,10 @@ std::optional<std::uint32_t> kind_of(const std::string& type) {
 }
 
 }  // namespace
+
+std::span<const char* const> light_keys() {
+    return known_keys;
+}
 
 std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node) {
     // The node names a light of the file.
@@ -105,8 +113,8 @@ std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, co
     shape.range = shape.kind == GN_LIGHT_DIRECTIONAL ? 0.0F : narrow(data.range);
     shape.cos_inner = narrow(std::cos(data.spot.innerConeAngle));
     shape.cos_outer = narrow(std::cos(data.spot.outerConeAngle));
-    apply_extras(file, data.extras, placed.light);
-    apply_extras(file, node.extras, placed.light);
+    apply_extras(file, data.extras, placed.light, false);
+    apply_extras(file, node.extras, placed.light, true);
     return placed;
 }
 

@@ -172,7 +172,7 @@ UvUse read_uv_use(const tinygltf::TextureInfo& info) {
     return use;
 }
 
-Material read_material(File& file, const tinygltf::Material& data, Pictures& pictures) {
+Material read_material(const tinygltf::Material& data, Pictures& pictures) {
     // Surface.
     const tinygltf::PbrMetallicRoughness& pbr = data.pbrMetallicRoughness;
     Material material{.name = clean_text(data.name)};
@@ -198,8 +198,9 @@ Material read_material(File& file, const tinygltf::Material& data, Pictures& pic
                                                       : AlphaMode::opaque;
     material.alpha_cutoff = material.alpha_mode == AlphaMode::mask ? to_float(data.alphaCutoff, 0.0, 1e6) : 0.5F;
     material.double_sided = data.doubleSided;
-    if (data.extensions.count("KHR_materials_transmission") > 0) {
-        add_note(file.notes, fmt::format("Material '{}' transmits light, which is not shown.", material.name));
+    const auto through = data.extensions.find("KHR_materials_transmission");
+    if (through != data.extensions.end()) {
+        material.transmission = to_float(number(through->second, "transmissionFactor").value_or(0.0), 0.0, 1.0);
     }
     return material;
 }
@@ -210,7 +211,7 @@ std::vector<UvUse> load_materials(File& file, Model& model) {
     Pictures pictures(file, model);
     std::vector<UvUse> uses;
     for (const tinygltf::Material& data : file.data.materials) {
-        model.materials.push_back(read_material(file, data, pictures));
+        model.materials.push_back(read_material(data, pictures));
         uses.push_back(read_uv_use(data.pbrMetallicRoughness.baseColorTexture));
     }
     model.materials.push_back({.name = "default"});

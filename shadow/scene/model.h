@@ -21,6 +21,7 @@ struct Instance {
     std::size_t mesh = 0;
     dmat4 ws_from_os{1.0};
     std::string name;
+    std::optional<bool> casts, receives;  ///< what the file told; unset: nothing
 };
 
 /// light.shape.position_ws is unused until flatten() writes it.
@@ -83,6 +84,8 @@ void drop_bad_triangles(Scene& scene);
 void complete_normals(Scene& scene);
 void complete_lights(Scene& scene);
 void complete_cameras(Scene& scene);
+/// Glass, and the bulbs that lamps spare.
+void complete_casting(Scene& scene);
 /// The box of the main mass of triangles: few far outliers left out.
 Box main_bounds(const Scene& scene);
 

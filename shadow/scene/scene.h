@@ -28,7 +28,9 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;  ///< blend casts and receives as mask with cutoff 0.5
     float alpha_cutoff = 0.5F;                 ///< a texel with alpha < cutoff is not there
     int base_color_texture = -1;               ///< index into Scene::textures, or -1
-    bool double_sided = true;
+    bool double_sided = true;                  ///< false: the back shows nothing and casts nothing
+    float transmission = 0.0F;  ///< share of the light that goes through; above 0 the material casts nothing
+    bool casts = true;          ///< set by finish_scene: false for glass, see shadow/scene/casting.h
 };
 
 struct Texture {
@@ -43,11 +45,14 @@ struct Object {
     std::uint32_t first_triangle = 0, triangle_count = 0;
     int material = 0;
     Box bounds_ws;
+    std::optional<bool> casts;  ///< told to cast, or not to; unset: as the material does
+    bool receives = true;       ///< false: no shadow falls on it, and it is left out of the errors
 };
 
 struct Light {
     std::string name;
     GnLight shape;
+    std::vector<std::uint32_t> spared;  ///< objects that cast no shadow of it, ascending; set by finish_scene
 };
 
 /// A perspective camera. It looks along forward_ws.

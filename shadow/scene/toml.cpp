@@ -37,9 +37,36 @@ dmat4 placement(const TomlTable& table) {
     return glm::translate(dmat4(1.0), table.vector("translate", dvec3(0.0))) * rotation * glm::scale(dmat4(1.0), scale);
 }
 
-void add_file(const TomlTable& table, const Folder& folder, Model& model) {
-    static constexpr std::array<std::string_view, 5> keys{"path", "translate", "rotate", "quaternion", "scale"};
+// casts and receives, for every instance that the table speaks of.
+void order(const TomlTable& table, std::span<Instance> instances) {
+    for (Instance& instance : instances) {
+        instance.casts = table.has("casts") ? table.flag("casts") : instance.casts;
+        instance.receives = table.has("receives") ? table.flag("receives") : instance.receives;
+    }
+}
+
+// Orders for what has a name, whatever file it comes from.
+void order_object(const TomlTable& table, Model& model) {
+    static constexpr std::array<std::string_view, 3> keys{"name", "casts", "receives"};
     table.check_keys(keys);
+    const std::string name = clean_text(table.text("name", ""));
+    std::size_t found = 0;
+    for (Instance& instance : model.instances) {
+        if (instance.name == name) {
+            order(table, std::span(&instance, 1));
+            ++found;
+        }
+    }
+    if (found == 0) {
+        fail("{}: no object is named '{}'; the names are those of the files' nodes and groups", table.where(), name);
+    }
+}
+
+void add_file(const TomlTable& table, const Folder& folder, Model& model) {
+    static constexpr std::array<std::string_view, 7> keys{"path",  "translate", "rotate",  "quaternion",
+                                                          "scale", "casts",     "receives"};
+    table.check_keys(keys);
+    const std::size_t first = model.instances.size();
     const std::string name = table.text("path", "");
     std::filesystem::path path;
     try {
@@ -48,6 +75,7 @@ void add_file(const TomlTable& table, const Folder& folder, Model& model) {
         fail("{}: path {}", table.where(), problem.what());
     }
     append_model(model, load_model(path, false), placement(table));
+    order(table, std::span(model.instances).subspan(first));
 
     // The same file placed again and again must not outgrow the limits before anyone looks.
     std::size_t triangles = 0;
@@ -235,7 +263,7 @@ Model load_toml(const std::filesystem::path& path) {
         fail("{}: line {}: {}", shown, problem.source().begin.line, clean_text(problem.description()));
     }
 
-    static constexpr std::array<std::string_view, 4> keys{"file", "light", "camera", "path"};
+    static constexpr std::array<std::string_view, 5> keys{"file", "object", "light", "camera", "path"};
     const TomlTable table(root, shown);
     table.check_keys(keys);
     const Folder folder(path);
@@ -248,6 +276,9 @@ Model load_toml(const std::filesystem::path& path) {
     }
     for (const TomlTable& file : table.tables("file")) {
         add_file(file, folder, model);
+    }
+    for (const TomlTable& object : table.tables("object")) {
+        order_object(object, model);
     }
     for (const TomlTable& moving : table.tables("path")) {
         add_path(moving, model);

@@ -35,6 +35,14 @@ double TomlTable::number(std::string_view key, double otherwise) const {
     return *value;
 }
 
+bool TomlTable::flag(std::string_view key) const {
+    const auto* value = table_.get_as<bool>(key);
+    if (value == nullptr) {
+        wrong(key, "true or false");
+    }
+    return value->get();
+}
+
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t count) const {
     if (!has(key)) {
         return std::nullopt;

@@ -24,6 +24,8 @@ class TomlTable {
     [[nodiscard]] bool is_list(std::string_view key) const { return table_.get_as<toml::array>(key) != nullptr; }
     [[nodiscard]] std::string text(std::string_view key, std::string otherwise) const;
     [[nodiscard]] double number(std::string_view key, double otherwise) const;
+    /// True or false; the key is there.
+    [[nodiscard]] bool flag(std::string_view key) const;
     /// `count` numbers.
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;
     [[nodiscard]] dvec3 vector(std::string_view key, dvec3 otherwise) const;

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/view/draw.h"
 
-#include <numeric>
-
 namespace gn {
 namespace {
-
-std::vector<std::uint32_t> every_object(const Scene& scene) {
-    std::vector<std::uint32_t> all(scene.objects.size());
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
-}
 
 const Material& material_of(const Scene& scene, const Object& object) {
     return scene.materials[static_cast<std::size_t>(object.material)];
@@ -23,9 +15,8 @@ bool is_masked(const Scene& scene, const Object& object) {
 }
 
 std::vector<DrawRange> opaque_runs(const Scene& scene, std::span<const std::uint32_t> objects) {
-    const std::vector<std::uint32_t> all = objects.empty() ? every_object(scene) : std::vector<std::uint32_t>{};
     std::vector<DrawRange> runs;
-    for (const std::uint32_t index : objects.empty() ? std::span(all) : objects) {
+    for (const std::uint32_t index : objects) {
         const Object& object = scene.objects[index];
         if (is_masked(scene, object) || object.triangle_count == 0) {
             continue;
@@ -41,9 +32,8 @@ std::vector<DrawRange> opaque_runs(const Scene& scene, std::span<const std::uint
 }
 
 std::vector<std::uint32_t> masked_objects(const Scene& scene, std::span<const std::uint32_t> objects) {
-    const std::vector<std::uint32_t> all = objects.empty() ? every_object(scene) : std::vector<std::uint32_t>{};
     std::vector<std::uint32_t> masked;
-    for (const std::uint32_t index : objects.empty() ? std::span(all) : objects) {
+    for (const std::uint32_t index : objects) {
         if (is_masked(scene, scene.objects[index])) {
             masked.push_back(index);
         }

@@ -13,7 +13,7 @@ struct DrawRange {
     std::uint32_t first_index = 0, index_count = 0;
 };
 
-/// Consecutive opaque objects of `objects` (indices into Scene::objects, ascending; empty: all) merged into runs.
+/// Consecutive opaque objects of `objects` (indices into Scene::objects, ascending) merged into runs.
 std::vector<DrawRange> opaque_runs(const Scene& scene, std::span<const std::uint32_t> objects);
 /// Alpha-tested objects of `objects`.
 std::vector<std::uint32_t> masked_objects(const Scene& scene, std::span<const std::uint32_t> objects);

@@ -42,6 +42,7 @@ layout(push_constant, scalar) uniform Push {
     float alpha_cutoff;   // below zero: opaque
     uint first_triangle;
     uint object_id;
+    float surface;        // position.w: 2 where no shadow is received, else 1
 } push;
 layout(location = 0) in vec3 in_position_ws;
 layout(location = 1) in vec3 in_normal_ws;
@@ -74,7 +75,7 @@ void main() {
     vec3 shading_ws = dot(in_normal_ws, in_normal_ws) > 0.25 ? normalize(in_normal_ws) : n_ws;
     shading_ws = dot(shading_ws, n_ws) < 0.0 ? -shading_ws : shading_ws;
     vec4 p_cs = u.view.cs_from_ws * vec4(p_ws, 1.0);
-    out_position = vec4(p_ws, 1.0);
+    out_position = vec4(p_ws, push.surface);
     out_normal = vec4(n_ws, p_cs.w);
     out_shading_normal = vec4(shading_ws, 0.0);
     out_albedo = vec4(base_color.rgb, 1.0);
@@ -89,6 +90,7 @@ struct Push {
     vec3 emissive;
     float roughness, metallic, alpha_cutoff;
     std::uint32_t first_triangle, object_id;
+    float surface;
 };
 
 RasterDesc gbuffer_pipeline() {
@@ -124,7 +126,7 @@ void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles) 
         const AlphaTest test = alpha_test(material);
         r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
                           is_masked(scene, object) ? test.cutoff : -1.0F, object.first_triangle,
-                          static_cast<std::uint32_t>(i)});
+                          static_cast<std::uint32_t>(i), object.receives ? 1.0F : 2.0F});
         r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
     }
 }

@@ -61,8 +61,9 @@ void finish_times(const GraphStatistics& statistics, FrameResult& result) {
     }
 }
 
-Visibility add_no_shadow(const FrameInput& input) {
-    static constexpr const char* text = R"(
+namespace {
+
+constexpr const char* unshadowed_text = R"(
 #include "shadow/view/view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D gbuffer_position;
@@ -77,31 +78,53 @@ void main() {
     vec4 position = texelFetch(gbuffer_position, pixel, 0);
     vec3 n_ws = texelFetch(gbuffer_normal, pixel, 0).xyz;
     bool counted = position.w > 0.5 && gn_counted(u.light, position.xyz, n_ws);
+#ifdef GN_ONLY_UNSHADOWED
+    // The others keep what the technique gave them.
+    if (!(counted && position.w > 1.5)) {
+        return;
+    }
+#endif
     imageStore(visibility, pixel, vec4(counted ? 1.0 : 0.0));
 }
 )";
-    const Visibility result{create_visibility(input.graph, input.samples)};
+
+/// V = 1 for the samples that count: for all of them, or for those alone that receive no shadow.
+void add_lit(const FrameInput& input, const char* name, const Visibility& result, const std::string& text) {
     struct Constants {
         GnViewConstants view;
         GnLight light;
     };
     const Constants constants{input.samples.constants, input.light().shape};
     input.graph.add_pass(
-        "no shadow",
+        name,
         [&](PassBuilder& pass) {
             pass.sample(input.samples.position);
             pass.sample(input.samples.normal);
             pass.storage_write(result.image);
         },
-        [result, constants, samples = input.samples](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "no shadow", text}, {}});
+        [=, samples = input.samples](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, name, text}, {}});
             r.set("gbuffer_position", samples.position);
             r.set("gbuffer_normal", samples.normal);
             r.set_storage("visibility", result.image);
             r.set_value("u", constants);
             r.dispatch_pixels(samples.width, samples.height);
         });
+}
+
+}  // namespace
+
+Visibility add_no_shadow(const FrameInput& input) {
+    const Visibility result{create_visibility(input.graph, input.samples)};
+    add_lit(input, "no shadow", result, unshadowed_text);
     return result;
+}
+
+void add_unshadowed(const FrameInput& input, const Visibility& visibility) {
+    const auto& objects = input.scene.objects;
+    if (std::any_of(objects.begin(), objects.end(), [](const Object& object) { return !object.receives; })) {
+        add_lit(input, "unshadowed", visibility, std::string("#define GN_ONLY_UNSHADOWED\n") + unshadowed_text);
+    }
 }
 
 }  // namespace gn

@@ -17,5 +17,7 @@ void finish_times(const GraphStatistics& statistics, FrameResult& result);
 
 /// V = 1 for every counted sample: the recipe `none`.
 Visibility add_no_shadow(const FrameInput& input);
+/// V = 1 on what receives no shadow, whatever a technique made of it; nothing where every object receives.
+void add_unshadowed(const FrameInput& input, const Visibility& visibility);
 
 }  // namespace gn

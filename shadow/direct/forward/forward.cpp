@@ -10,6 +10,7 @@
 
 #include "shadow/map/raster.h"
 #include "shadow/placement/place.h"
+#include "shadow/scene/casting.h"
 
 namespace gn {
 namespace {
@@ -32,7 +33,16 @@ Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
     return add_forward_resolve(input, samples, light);
 }
 
-std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe) {
+    // What is not in the map is lit by none of its texels.
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (scene.objects[i].receives && !casts(scene, i, &light)) {
+            return fmt::format(
+                "direct 'forward' lights what its map holds, and '{}' casts nothing for light '{}': it would stay "
+                "dark; take hard or pcf, or tell it to cast or not to receive",
+                scene.objects[i].name, light.name);
+        }
+    }
     return recipe.placement != nullptr && recipe.placement->id == "paraboloid"
                ? "direct 'forward' follows straight rays through its map and placement 'paraboloid' bends them; use "
                  "auto "

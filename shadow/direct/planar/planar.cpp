@@ -158,7 +158,7 @@ void draw_casters(Recorder& r, const Scene& scene, const SceneHandles& handles, 
 }
 
 void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
-    const std::vector<CasterKind> kinds = caster_kinds(input.scene);
+    const std::vector<CasterKind> kinds = caster_kinds(input.scene, input.light());
     input.graph.add_pass(
         "planar: casters",
         [&](PassBuilder& pass) {

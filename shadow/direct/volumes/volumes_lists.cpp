@@ -107,8 +107,7 @@ Buffer upload(Device& device, const char* name, const std::vector<T>& values) {
 struct Casters {
     std::vector<std::uint8_t> casts, masked;
 };
-Casters casters(const Scene& scene, bool skip_masked) {
-    const std::vector<CasterKind> kinds = caster_kinds(scene);
+Casters find_casters(const Scene& scene, const std::vector<CasterKind>& kinds, bool skip_masked) {
     Casters found{std::vector<std::uint8_t>(scene.triangles.size(), 0),
                   std::vector<std::uint8_t>(scene.triangles.size(), 0)};
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -131,10 +130,11 @@ float pixel_metres(const ViewSamples& samples) {
     return 2.0F * std::tan(0.5F * samples.camera.yfov) / static_cast<float>(samples.height);
 }
 
-EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, bool skip_masked, std::uint64_t key) {
+EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vector<CasterKind>& kinds,
+                              bool skip_masked, std::uint64_t key) {
     static GeometryCache<EdgeList> cache;
     EdgeBuffers made;
-    const Casters found = casters(scene, skip_masked);
+    const Casters found = find_casters(scene, kinds, skip_masked);
     made.list = cache.get(key, [&] { return build_edges(scene.positions_ws, scene.triangles, found.casts); });
 
     // A triangle's owner is its component, its lowest bit the mask.
@@ -152,11 +152,14 @@ EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, bool skip_mask
 }
 
 // The passes of a graph keep the buffers; the lights of one frame find them here as long as they live.
-std::shared_ptr<const EdgeBuffers> edge_buffers(Device& device, const Scene& scene, bool skip_masked) {
+std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool skip_masked) {
+    Device& device = input.device;
+    const Scene& scene = input.scene;
     static std::mutex mutex;
     static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const EdgeBuffers>> alive;
     std::uint64_t key = skip_masked ? 1 : 0;
-    for (const CasterKind kind : caster_kinds(scene)) {
+    const std::vector<CasterKind> kinds = caster_kinds(scene, input.light());
+    for (const CasterKind kind : kinds) {
         key = key * 31 + static_cast<std::uint64_t>(kind);
     }
     key = geometry_hash(scene, key);
@@ -165,7 +168,7 @@ std::shared_ptr<const EdgeBuffers> edge_buffers(Device& device, const Scene& sce
     auto& entry = alive[{&device, key}];
     std::shared_ptr<const EdgeBuffers> buffers = entry.lock();
     if (!buffers) {
-        buffers = std::make_shared<const EdgeBuffers>(make_edge_buffers(device, scene, skip_masked, key));
+        buffers = std::make_shared<const EdgeBuffers>(make_edge_buffers(device, scene, kinds, skip_masked, key));
         entry = buffers;
     }
     return buffers;
@@ -175,7 +178,7 @@ std::shared_ptr<const EdgeBuffers> edge_buffers(Device& device, const Scene& sce
 
 VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesParams& params) {
     FrameGraph& graph = input.graph;
-    VolumeBuffers buffers{.scene = edge_buffers(input.device, input.scene, params.masked == GN_VOLUMES_SKIP)};
+    VolumeBuffers buffers{.scene = edge_buffers(input, params.masked == GN_VOLUMES_SKIP)};
     const EdgeBuffers& scene = *buffers.scene;
     buffers.edges = graph.import(scene.edges);
     buffers.first = graph.import(scene.first);

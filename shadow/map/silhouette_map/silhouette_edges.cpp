@@ -157,11 +157,11 @@ SilhouetteEdges make_edges(Device& device, const Scene& scene, const std::vector
             .around = upload(device, "silhouette edge triangles", list.around)};
 }
 
-/// Lights of one frame share the edges.
-std::shared_ptr<const SilhouetteEdges> edges_of(Device& device, const Scene& scene) {
+/// Lights of one frame that the same objects cast for share the edges.
+std::shared_ptr<const SilhouetteEdges> edges_of(Device& device, const Scene& scene, const Light& light) {
     static std::mutex mutex;
     static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const SilhouetteEdges>> alive;
-    const std::vector<CasterKind> kinds = caster_kinds(scene);
+    const std::vector<CasterKind> kinds = caster_kinds(scene, light);
     std::uint64_t salt = 0;
     for (const CasterKind kind : kinds) {
         salt = salt * 31 + static_cast<std::uint64_t>(kind);
@@ -224,7 +224,7 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     desc.format = VK_FORMAT_D32_SFLOAT;
     const TextureHandle nearest_edge = graph.create(desc);
 
-    const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input.device, input.scene);
+    const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input.device, input.scene, input.light());
     const EdgeHandles buffers{graph.import(edges->edges), graph.import(edges->first), graph.import(edges->around)};
     const ClearValue middle{.color = vec4(glsl::gn_silhouette_pack(vec2(0.5F)), 0, 0, 0)};
     std::vector<bool> cleared(views.layers, false);
