@@ -37,9 +37,14 @@ GN_FN ivec2 gn_silhouette_corner(vec2 p, vec2 centre, vec2 right, vec2 above, ve
 }  // namespace gn::glsl
 #else
 
-vec2 gn_silhouette_fetch(sampler2DArray map, ivec2 cell, ivec2 step, int layer) {
-    ivec2 last = textureSize(map, 0).xy - 1;
-    float packed = texelFetch(map, ivec3(clamp(cell + step, ivec2(0), last), layer), 0).g;
+// The first and the last texel of the view's rectangle: beyond it other views begin.
+ivec4 gn_silhouette_bounds(GnProjected projected) {
+    ivec4 bounds = ivec4(projected.bounds_ts / projected.texel_ts + 0.5);
+    return ivec4(bounds.xy, bounds.zw - 1);
+}
+
+vec2 gn_silhouette_fetch(sampler2DArray map, ivec2 cell, ivec2 step, int layer, ivec4 bounds) {
+    float packed = texelFetch(map, ivec3(clamp(cell + step, bounds.xy, bounds.zw), layer), 0).g;
     return gn_silhouette_unpack(packed) + vec2(step);
 }
 
@@ -48,14 +53,15 @@ float gn_silhouette_visibility(GnReceiver receiver, GnProjected projected, GnBia
     vec2 p_cells = projected.uv_ts / projected.texel_ts - 0.5;
     ivec2 cell = ivec2(floor(p_cells));
     int layer = projected.layer;
-    ivec2 corner = gn_silhouette_corner(
-        p_cells - vec2(cell), gn_silhouette_fetch(map, cell, ivec2(0, 0), layer),
-        gn_silhouette_fetch(map, cell, ivec2(1, 0), layer), gn_silhouette_fetch(map, cell, ivec2(0, 1), layer),
-        gn_silhouette_fetch(map, cell, ivec2(-1, 0), layer), gn_silhouette_fetch(map, cell, ivec2(0, -1), layer));
+    ivec4 bounds = gn_silhouette_bounds(projected);
+    ivec2 corner = gn_silhouette_corner(p_cells - vec2(cell), gn_silhouette_fetch(map, cell, ivec2(0, 0), layer, bounds),
+                                        gn_silhouette_fetch(map, cell, ivec2(1, 0), layer, bounds),
+                                        gn_silhouette_fetch(map, cell, ivec2(0, 1), layer, bounds),
+                                        gn_silhouette_fetch(map, cell, ivec2(-1, 0), layer, bounds),
+                                        gn_silhouette_fetch(map, cell, ivec2(0, -1), layer, bounds));
 
     // Compare with the depth at the quadrant's corner, where it was sampled.
-    ivec2 last = textureSize(map, 0).xy - 1;
-    ivec2 texel = clamp(cell + corner, ivec2(0), last);
+    ivec2 texel = clamp(cell + corner, bounds.xy, bounds.zw);
     vec2 corner_ts = (vec2(texel) + 0.5) * projected.texel_ts;
     float occluder = texelFetch(map, ivec3(texel, layer), 0).r;
     return gn_depth_at(projected, corner_ts, bias) <= occluder ? 1.0 : 0.0;
