@@ -52,13 +52,15 @@ double volume6(std::span<const vec3> positions, const uvec3& t, dvec3 origin) {
     return glm::dot(a, glm::cross(b, c));
 }
 
-void describe_components(std::span<const vec3> positions, std::span<const uvec3> triangles, EdgeList& list) {
+void describe_components(std::span<const vec3> positions, std::span<const uvec3> triangles,
+                         std::span<const std::uint8_t> casts, EdgeList& list) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (list.component_of[t] == EdgeList::no_component) {
             continue;
         }
         Component& component = list.components[list.component_of[t]];
         ++component.triangles;
+        component.one_sided = component.one_sided || casts[t] == casts_from_its_front;
         for (int i = 0; i < 3; ++i) {
             component.bounds_ws.grow(positions[triangles[t][i]]);
         }
@@ -143,7 +145,7 @@ EdgeList build_edges(std::span<const vec3> positions_ws, std::span<const uvec3> 
         }
         list.component_of[t] = id;
     }
-    describe_components(positions_ws, triangles, list);
+    describe_components(positions_ws, triangles, casts, list);
     return list;
 }
 

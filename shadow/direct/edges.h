@@ -16,8 +16,9 @@ namespace gn {
 /// Triangles connected through edges.
 struct Component {
     Box bounds_ws;
-    bool closed = false;  ///< every edge is run through as often in one direction as in the other: it bounds a solid
-    int outward = 1;      ///< closed ones: +1 when the windings show outwards, -1 when inwards
+    bool closed = false;     ///< every edge is run through as often in one direction as in the other: it bounds a solid
+    int outward = 1;         ///< closed ones: +1 when the windings show outwards, -1 when inwards
+    bool one_sided = false;  ///< some of its triangles cast from their front alone
     std::uint32_t triangles = 0;
 };
 
@@ -30,6 +31,9 @@ struct EdgeList {
     std::vector<std::uint32_t> component_of;  ///< per triangle; no_component for those that cast nothing
     std::vector<Component> components;
 };
+
+/// How a triangle casts.
+enum : std::uint8_t { casts_nothing = 0, casts_from_both_sides = 1, casts_from_its_front = 2 };
 
 /// Builds the list in O(n log n). `casts` has one byte a triangle; triangles with two equal corners are left out too.
 EdgeList build_edges(std::span<const vec3> positions_ws, std::span<const uvec3> triangles,

@@ -70,6 +70,14 @@ std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light) {
     return kinds;
 }
 
+CasterSides split_sides(const Scene& scene, const std::vector<CasterKind>& kinds) {
+    CasterSides sides{kinds, kinds};
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        (is_single_sided(scene, scene.objects[i]) ? sides.both : sides.one)[i] = CasterKind::absent;
+    }
+    return sides;
+}
+
 std::vector<TriangleRun> opaque_caster_runs(const Scene& scene, const std::vector<CasterKind>& kinds) {
     std::vector<TriangleRun> runs;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -23,6 +23,12 @@ enum class CasterKind : std::uint8_t {
 /// One entry an object. Blended materials count as masked with cutoff 0.5.
 std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light);
 
+/// The kinds of two-sided objects and those of one-sided ones, the others absent.
+struct CasterSides {
+    std::vector<CasterKind> both, one;
+};
+CasterSides split_sides(const Scene& scene, const std::vector<CasterKind>& kinds);
+
 /// Runs of consecutive triangles, the opaque objects joined: what one draw can take.
 struct TriangleRun {
     std::uint32_t first = 0, count = 0;

@@ -6,6 +6,13 @@
 
 namespace gn {
 
+/// Faces that one draw takes.
+struct CasterFaces {
+    VkCullModeFlags culled = VK_CULL_MODE_NONE;
+    bool pushed = false;  ///< a little away from the light: they lose ties
+    bool depth_only = false;
+};
+
 struct CasterDraw {
     CasterPass pass;
     Recipe recipe;
@@ -26,10 +33,11 @@ struct CasterDraw {
     [[nodiscard]] std::uint32_t instances() const {
         return views.layered ? static_cast<std::uint32_t>(views.views.size()) : 1;
     }
-    void begin(Recorder& r, bool masked) const;
-    void opaque(Recorder& r, std::span<const std::uint32_t> objects) const;
-    void opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> objects) const;
-    void masked(Recorder& r, std::span<const std::uint32_t> objects) const;
+    void begin(Recorder& r, const CasterFaces& faces, bool masked) const;
+    void draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
 };
 
 /// Viewport and scissor of a view's rectangle in its layer.

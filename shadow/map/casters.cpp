@@ -33,6 +33,7 @@ TextureHandle add_second(const FrameInput& input, const Recipe& recipe, const Li
                          TextureHandle nearest_depth) {
     CasterPass pass;
     pass.name = "map second";
+    pass.every_side = true;
     pass.depth = create_map(input, views, "map second", VK_FORMAT_D32_SFLOAT);
     pass.fragment.includes = R"(
 #include "shadow/receiver.glsl"

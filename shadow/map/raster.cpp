@@ -132,6 +132,9 @@ void main() {
     float depth = clamp(in_depth, 0.0, 1.0);
 #ifdef GN_WRITE_DEPTH
     gl_FragDepth = depth;
+#ifdef GN_PUSHED
+    gl_FragDepth = min(depth + 4.0 / 16777216.0, 1.0);
+#endif
 #endif
 )";
 
@@ -143,10 +146,16 @@ struct Push {
 
 struct Variant {
     bool masked = false, write_depth = false, layered = false, paraboloid = false;
+    CasterFaces faces;
 };
 
+/// How far faces that must lose ties are pushed: units of the depth's last place at the farthest corner, and pixels of the
+/// rasterizer's grid, four each as in the view's samples.
+constexpr float push_units = 4;
+constexpr float push_pixels = 4.0F / 256;
+
 /// The pipeline that draws casters: a fragment stage only where depth is not affine, alpha is tested or the map asks.
-RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant variant) {
+RasterDesc caster_pipeline(const CasterPass& pass, const Variant& variant) {
     const bool needs_fragment = variant.masked || variant.write_depth || !pass.fragment.body.empty();
     std::string defines;
     defines += needs_fragment ? "#define GN_FRAGMENT\n" : "";
@@ -154,6 +163,7 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant
     defines += variant.write_depth ? "#define GN_WRITE_DEPTH\n" : "";
     defines += variant.layered ? "#define GN_LAYERED\n" : "";
     defines += variant.paraboloid ? "#define GN_PARABOLOID\n" : "";
+    defines += variant.faces.pushed ? "#define GN_PUSHED\n" : "";
 
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + vertex_text};
@@ -165,9 +175,9 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Recipe& recipe, Variant
             ShaderKind::fragment, pass.name + ".frag",
             defines + pass.fragment.includes + fragment_head + fragment_main + pass.fragment.body + "\n}\n"};
     }
-    desc.cull = recipe.casters == "front"  ? VK_CULL_MODE_BACK_BIT
-                : recipe.casters == "back" ? VK_CULL_MODE_FRONT_BIT
-                                           : VK_CULL_MODE_NONE;
+    desc.cull = variant.faces.culled;
+    desc.depth_bias = variant.faces.pushed;
+    desc.color_mask = variant.faces.depth_only ? 0 : 0xF;
     desc.depth_test = desc.depth_write = desc.depth_clamp = true;
     desc.depth_compare = VK_COMPARE_OP_LESS;
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
@@ -184,9 +194,10 @@ void set_viewport(Recorder& r, const GnLightView& view) {
               static_cast<std::uint32_t>(view.rect_ts.z * n), static_cast<std::uint32_t>(view.rect_ts.w * n));
 }
 
-void CasterDraw::begin(Recorder& r, bool masked) const {
+void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const {
     const GnLightView& first = views.views[view];
-    r.bind(caster_pipeline(pass, recipe, {masked, first.affine_depth == 0, views.layered, first.paraboloid > 0}));
+    r.bind(caster_pipeline(pass, {masked, first.affine_depth == 0, views.layered, first.paraboloid > 0, faces}));
+    r.depth_bias(push_units, push_pixels);
     set_views(r, views);
     if (pass.bind_values) {
         pass.bind_values(r);
@@ -195,24 +206,28 @@ void CasterDraw::begin(Recorder& r, bool masked) const {
     r.index_buffer(handles.indices);
 }
 
-void CasterDraw::opaque(Recorder& r, std::span<const std::uint32_t> objects) const {
+void CasterDraw::opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
     if (pass.by_object) {
-        opaque_one_by_one(r, objects);
+        opaque_one_by_one(r, faces, objects);
         return;
     }
     const std::vector<DrawRange> runs = opaque_runs(*scene, objects);
     if (runs.empty()) {
         return;
     }
-    begin(r, false);
+    begin(r, faces, false);
     r.push_value(Push{static_cast<int>(view), 1.0F, 0.0F, -1});
     for (const DrawRange& run : runs) {
         r.draw_indexed(run.index_count, instances(), run.first_index);
     }
 }
 
-void CasterDraw::opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> objects) const {
-    begin(r, false);
+void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
+                                   std::span<const std::uint32_t> objects) const {
+    if (objects.empty()) {
+        return;
+    }
+    begin(r, faces, false);
     for (const std::uint32_t index : objects) {
         const Object& object = scene->objects[index];
         if (!is_masked(*scene, object)) {
@@ -222,12 +237,12 @@ void CasterDraw::opaque_one_by_one(Recorder& r, std::span<const std::uint32_t> o
     }
 }
 
-void CasterDraw::masked(Recorder& r, std::span<const std::uint32_t> objects) const {
+void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
     const std::vector<std::uint32_t> masked = masked_objects(*scene, objects);
     if (masked.empty()) {
         return;
     }
-    begin(r, true);
+    begin(r, faces, true);
     r.set("Uvs", handles.uvs);
     for (const std::uint32_t index : masked) {
         const Object& object = scene->objects[index];
@@ -255,10 +270,37 @@ std::vector<std::uint32_t> CasterDraw::objects() const {
     return found;
 }
 
+void CasterDraw::draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
+    opaque(r, faces, objects);
+    masked(r, faces, objects);
+}
+
 void CasterDraw::record(Recorder& r) const {
+    constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
+    constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
     const std::vector<std::uint32_t> drawn = objects();
-    opaque(r, drawn);
-    masked(r, drawn);
+    if (recipe.casters == "front" || recipe.casters == "back") {
+        draw(r, recipe.casters == "front" ? fronts : backs, drawn);
+        return;
+    }
+
+    // A material with one side casts from that side only.
+    std::vector<std::uint32_t> both;
+    std::vector<std::uint32_t> one;
+    for (const std::uint32_t object : drawn) {
+        (is_single_sided(*scene, scene->objects[object]) && !pass.every_side ? one : both).push_back(object);
+    }
+    if (!pass.by_object) {
+        draw(r, {}, both);
+        draw(r, fronts, one);
+        return;
+    }
+
+    // Of two faces back to back the one turned to the light gives its name: backs come later and pushed away, and their
+    // own depth last.
+    draw(r, fronts, drawn);
+    draw(r, {.culled = backs.culled, .pushed = true}, both);
+    draw(r, {.culled = backs.culled, .depth_only = true}, both);
 }
 
 void CasterDraw::declare(PassBuilder& builder) const {

@@ -25,7 +25,8 @@ struct CasterPass {
     CasterFragment fragment;                     ///< empty: depth only
     std::function<void(Recorder&)> bind_values;  ///< sets what `includes` declares
     std::function<void(PassBuilder&)> declare;   ///< declares what it reads beyond the casters; empty: nothing
-    bool by_object = false;                      ///< one draw an object; `body` may read int push.object
+    bool by_object = false;   ///< one draw an object; `body` may read int push.object; fronts win ties with backs
+    bool every_side = false;  ///< backs of one-sided materials too: as what lies behind, not as what casts
 };
 
 /// One pass a view, into the view's rectangle of its layer: opaque casters, then alpha-tested ones. Depth is linear:

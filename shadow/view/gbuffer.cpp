@@ -5,6 +5,7 @@
 // plane (the vertices are the very floats that the truth traces), so what remains is rounding: less than four units in
 // the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
 #include "shadow/frame.h"
+#include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
 namespace gn {
@@ -93,8 +94,27 @@ struct Push {
     float surface;
 };
 
-RasterDesc gbuffer_pipeline() {
+/// Faces that are drawn together. Of two faces in one plane, back to back, rounding decides which is nearer, and the one
+/// turned to the viewer must show: so all fronts are drawn first, then backs a little farther away than they are. Their
+/// true depth is written last, where no front came to lie before them.
+struct Faces {
+    VkCullModeFlags culled;
+    bool pushed, depth_only;
+};
+constexpr std::array rounds{Faces{VK_CULL_MODE_BACK_BIT, false, false}, Faces{VK_CULL_MODE_FRONT_BIT, true, false},
+                            Faces{VK_CULL_MODE_FRONT_BIT, false, true}};
+
+// By how much backs are pushed. Vertices are rounded to the rasterizer's grid of 1/256 pixel, in both faces alike where they
+// share corners, by different planes where they do not: four such steps. Interpolation errs by units of the depth's last
+// place at the nearest corner: four of them.
+constexpr float push_units = 4;
+constexpr float push_pixels = 4.0F / 256;
+
+RasterDesc gbuffer_pipeline(const Faces& faces) {
     RasterDesc desc;
+    desc.cull = faces.culled;
+    desc.depth_bias = faces.pushed;
+    desc.color_mask = faces.depth_only ? 0 : 0xF;
     desc.vertex = {ShaderKind::vertex, "gbuffer.vert", vertex_text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag", fragment_text};
     desc.depth_test = desc.depth_write = true;
@@ -117,9 +137,12 @@ TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint 
     return graph.create({.name = name, .format = format, .width = width, .height = height});
 }
 
-void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles) {
+void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, bool backs) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
+        if (backs && is_single_sided(scene, object)) {
+            continue;
+        }
         const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
         const BaseColor color = base_color(scene, handles, material);
         r.set("base_color_texture", color.texture, color.sampler);
@@ -161,15 +184,19 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
             sample_textures(pass, handles);
         },
         [samples, handles, scene = scene.scene](Recorder& r) {
-            r.bind(gbuffer_pipeline());
-            r.set_value("u", samples.constants);
-            r.set("Normals", handles.normals);
-            r.set("Uvs", handles.uvs);
-            r.set("Positions", handles.positions);
-            r.set("Indices", handles.indices);
-            r.vertex_buffer(handles.positions);
-            r.index_buffer(handles.indices);
-            draw_objects(r, *scene, handles);
+            for (const Faces& faces : rounds) {
+                r.bind(gbuffer_pipeline(faces));
+                r.set_value("u", samples.constants);
+                r.set("Normals", handles.normals);
+                r.set("Uvs", handles.uvs);
+                r.set("Positions", handles.positions);
+                r.set("Indices", handles.indices);
+                r.vertex_buffer(handles.positions);
+                r.index_buffer(handles.indices);
+                // Depth is reversed: less is farther.
+                r.depth_bias(-push_units, -push_pixels);
+                draw_objects(r, *scene, handles, faces.culled == VK_CULL_MODE_FRONT_BIT);
+            }
         });
     return samples;
 }

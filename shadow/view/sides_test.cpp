@@ -42,7 +42,8 @@ TEST(Sides, ABackShowsNothingAndCastsNothing) {
             test::compare(under_the_sun(level({0, 1.5F, 0}, 1, false), one_side).load(), technique, small);
         EXPECT_EQ(seen_at(away.frame, 1.5F), 0U) << "the floor shows through its back";
         EXPECT_EQ(on_ground(away, away.truth.visibility).mean, 1);
-        EXPECT_EQ(on_ground(away, away.visibility().values).mean, 1) << technique;
+        // Two cascades blend to 1 but for the rounding of floats.
+        EXPECT_NEAR(on_ground(away, away.visibility().values).mean, 1, 1e-6) << technique;
     }
 }
 

@@ -88,8 +88,10 @@ RasterDesc receiver_pipeline(bool mark) {
 }
 
 // No depth test: the stencil knows the plane of each sample, so nothing can fight over it.
-RasterDesc caster_pipeline(bool masked) {
+// The viewer is on the light's side of a plane that it sees lit, so that a projected triangle turns as the light sees it.
+RasterDesc caster_pipeline(bool masked, bool one_sided) {
     RasterDesc desc;
+    desc.cull = one_sided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     desc.vertex = {ShaderKind::vertex, "planar-caster.vert", caster_vertex_text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "planar-caster.frag", caster_fragment_text};
     desc.constants = {{0, masked ? 1U : 0U}};
@@ -158,7 +160,7 @@ void draw_casters(Recorder& r, const Scene& scene, const SceneHandles& handles, 
 }
 
 void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
-    const std::vector<CasterKind> kinds = caster_kinds(input.scene, input.light());
+    const CasterSides sides = split_sides(input.scene, caster_kinds(input.scene, input.light()));
     input.graph.add_pass(
         "planar: casters",
         [&](PassBuilder& pass) {
@@ -169,15 +171,20 @@ void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& plan
             pass.storage_read(input.handles.uvs);
             sample_textures(pass, input.handles);
         },
-        [handles = input.handles, scene = &input.scene, planes, kinds](Recorder& r) {
+        [handles = input.handles, scene = &input.scene, planes, sides](Recorder& r) {
             // A shadowed sample loses its plane's number, so that no second caster darkens it again.
-            const bool any_masked = std::find(kinds.begin(), kinds.end(), CasterKind::masked) != kinds.end();
+            const auto any = [](const std::vector<CasterKind>& kinds, CasterKind kind) {
+                return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+            };
             for (std::uint32_t i = 0; i < planes.size(); ++i) {
-                for (const bool masked : {false, true}) {
-                    if (masked && !any_masked) {
+                for (const int way : {0, 1, 2, 3}) {
+                    const bool masked = (way & 1) != 0;
+                    const bool one_sided = (way & 2) != 0;
+                    const std::vector<CasterKind>& kinds = one_sided ? sides.one : sides.both;
+                    if (!any(kinds, masked ? CasterKind::masked : CasterKind::opaque)) {
                         continue;
                     }
-                    r.bind(caster_pipeline(masked));
+                    r.bind(caster_pipeline(masked, one_sided));
                     r.stencil_reference(i + 1);
                     r.index_buffer(handles.indices);
                     r.set("Positions", handles.positions);

@@ -66,7 +66,10 @@ std::vector<std::uint32_t> component_forms(std::span<const Component> components
         } else if (params.closed == 0 || !component.closed || inside) {
             forms.push_back(GN_VOLUMES_ANY);
         } else {
-            forms.push_back(component.outward > 0 ? GN_VOLUMES_FRONT : GN_VOLUMES_BACK);
+            // The back of a one-sided triangle is not there to cast.
+            forms.push_back(component.outward > 0 ? GN_VOLUMES_FRONT
+                            : component.one_sided ? GN_VOLUMES_ANY
+                                                  : GN_VOLUMES_BACK);
         }
     }
     return forms;

@@ -4,6 +4,7 @@
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
 #include "shadow/direct/stage.h"
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/scene/casting.h"
 
 #include <cmath>
 #include <map>
@@ -41,17 +42,18 @@ void main() {
     if (owner != ~0u) {
         int side = gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]],
                                    positions[indices[3u * t + 2u]], u.frame.light_ws);
-        m = gn_volumes_multiplicity(side, int(forms[owner >> 1]));
+        side = (owner & 2u) != 0u ? max(side, 0) : side;
+        m = gn_volumes_multiplicity(side, int(forms[owner >> 3]));
     }
     multiplicity[t] = m;
     if (m == 0) {
         return;
     }
     // List its caps: those turned as wound from the front of the list, the others from its end.
-    bool masked = (owner & 1u) != 0u;
-    uint first = masked ? u.frame.opaque_triangles : 0u;
-    uint end = masked ? u.frame.triangles : u.frame.opaque_triangles;
-    uint command = 1u + (masked ? 2u : 0u) + (m < 0 ? 1u : 0u);
+    bool compared = (owner & 1u) != 0u;
+    uint first = compared ? u.frame.opaque_triangles : 0u;
+    uint end = compared ? u.frame.triangles : u.frame.opaque_triangles;
+    uint command = 1u + (compared ? 2u : 0u) + (m < 0 ? 1u : 0u);
     uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
     uint slot = atomicAdd(draws[4u * command], corners) / corners;
     caps[m > 0 ? first + slot : end - 1u - slot] = t;
@@ -113,8 +115,9 @@ Casters find_casters(const Scene& scene, const std::vector<CasterKind>& kinds, b
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const bool masked = kinds[i] == CasterKind::masked;
         const auto first = scene.objects[i].first_triangle, end = first + scene.objects[i].triangle_count;
+        const auto solid = is_single_sided(scene, scene.objects[i]) ? casts_from_its_front : casts_from_both_sides;
         std::fill(found.casts.begin() + first, found.casts.begin() + end,
-                  kinds[i] == CasterKind::opaque || (masked && !skip_masked) ? 1 : 0);
+                  kinds[i] == CasterKind::opaque || (masked && !skip_masked) ? solid : casts_nothing);
         std::fill(found.masked.begin() + first, found.masked.begin() + end, masked ? 1 : 0);
     }
     return found;
@@ -137,12 +140,15 @@ EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vec
     const Casters found = find_casters(scene, kinds, skip_masked);
     made.list = cache.get(key, [&] { return build_edges(scene.positions_ws, scene.triangles, found.casts); });
 
-    // A triangle's owner is its component, its lowest bit the mask.
+    // A triangle's owner is its component, and how its caps are drawn.
     std::vector<std::uint32_t> owners(scene.triangles.size());
     for (std::size_t t = 0; t < owners.size(); ++t) {
         const std::uint32_t component = made.list->component_of[t];
-        owners[t] = component == EdgeList::no_component ? ~0U : component * 2 + found.masked[t];
-        made.opaque_triangles += found.masked[t] == 0 ? 1 : 0;
+        const std::uint32_t masked = found.masked[t];
+        const std::uint32_t front = found.casts[t] == casts_from_its_front ? 1 : 0;
+        owners[t] =
+            component == EdgeList::no_component ? ~0U : component * 8 + masked * 4 + front * 2 + (masked | front);
+        made.opaque_triangles += (masked | front) == 0 ? 1 : 0;
     }
     made.edges = upload(device, "volume edges", made.list->edges);
     made.first = upload(device, "volume edge starts", made.list->first);
@@ -159,8 +165,8 @@ std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool sk
     static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const EdgeBuffers>> alive;
     std::uint64_t key = skip_masked ? 1 : 0;
     const std::vector<CasterKind> kinds = caster_kinds(scene, input.light());
-    for (const CasterKind kind : kinds) {
-        key = key * 31 + static_cast<std::uint64_t>(kind);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        key = key * 31 + static_cast<std::uint64_t>(kinds[i]) + (is_single_sided(scene, scene.objects[i]) ? 4 : 0);
     }
     key = geometry_hash(scene, key);
     const std::lock_guard lock(mutex);

@@ -15,7 +15,8 @@ struct EdgeBuffers {
     std::shared_ptr<const EdgeList> list;
     std::uint32_t opaque_triangles = 0;
     Buffer edges, first, around;  ///< as EdgeList
-    Buffer owners;                ///< per triangle: component * 2 + 1 when masked; ~0 when it casts nothing
+    Buffer
+        owners;  ///< per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when either; ~0: it casts nothing
 };
 
 struct VolumeBuffers {
@@ -24,9 +25,10 @@ struct VolumeBuffers {
     GnVolumesFrame frame;
     BufferHandle edges, first, around, owners;
     BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1
-    BufferHandle caps;          ///< lists of triangles: opaque from both ends, then masked from both ends, by sign
-    BufferHandle sides;         ///< list of edge * 2 + 1 when turned over
-    BufferHandle draws;         ///< VkDrawIndirectCommand: sides, then the caps opaque +, opaque -, masked +, masked -
+    BufferHandle
+        caps;  ///< lists of triangles, each from both ends by sign: opaque ones, then masked and one-sided ones
+    BufferHandle sides;  ///< list of edge * 2 + 1 when turned over
+    BufferHandle draws;  ///< VkDrawIndirectCommand: sides, then the caps opaque +, opaque -, masked +, masked -
 };
 
 /// The scene's edges (built once a geometry, uploaded once a graph) and this light's lists.

@@ -72,6 +72,7 @@ layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
 layout(binding = 3, scalar) readonly buffer Caps { uint caps[]; };
+layout(binding = 5, scalar) readonly buffer Owners { uint owners[]; };
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
@@ -86,6 +87,13 @@ void main() {
     vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
     gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+    // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
+    // every opaque cap does.
+    if (MASKED != 0 && (owners[t] & 6u) == 2u &&
+        gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]], positions[indices[3u * t + 2u]],
+                        vec4(u.frame.eye_ws.xyz, 1.0)) > 0) {
+        gl_Position.z = 0.0;
+    }
 }
 )";
 
@@ -163,6 +171,7 @@ void set_inputs(Recorder& r, const VolumeBuffers& buffers, const SceneHandles& h
     r.set("Edges", buffers.edges);
     r.set("Sides", buffers.sides);
     r.set("Caps", buffers.caps);
+    r.set("Owners", buffers.owners);
 }
 
 }  // namespace
@@ -204,8 +213,8 @@ void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureH
         "volumes: stencil",
         [&](PassBuilder& pass) {
             pass.depth_read_only(counts, {0, 1, 0, 1}, 0);
-            for (const BufferHandle read :
-                 {input.handles.positions, input.handles.indices, buffers.edges, buffers.sides, buffers.caps}) {
+            for (const BufferHandle read : {input.handles.positions, input.handles.indices, buffers.edges,
+                                            buffers.sides, buffers.caps, buffers.owners}) {
                 pass.storage_read(read);
             }
             pass.indirect(buffers.draws);

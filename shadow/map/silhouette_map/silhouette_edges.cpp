@@ -8,6 +8,7 @@
 #include "shadow/direct/edges.h"
 #include "shadow/direct/stage.h"
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
+#include "shadow/scene/casting.h"
 
 #include <map>
 
@@ -37,7 +38,9 @@ int side(uvec3 corners, vec4 eye_ws) {
 bool is_silhouette(uint edge, vec4 eye_ws) {
     int sum = 0;
     for (uint i = first[edge]; i < first[edge + 1u]; ++i) {
-        int s = side(triangles[around[i] >> 1], eye_ws);
+        int s = side(triangles[(around[i] & 0x7fffffffu) >> 1], eye_ws);
+        // The highest bit: a triangle that casts from its front alone is not there from behind.
+        s = (around[i] & 0x80000000u) != 0u ? max(s, 0) : s;
         sum += (around[i] & 1u) != 0u ? -s : s;
     }
     return sum != 0;
@@ -148,9 +151,13 @@ SilhouetteEdges make_edges(Device& device, const Scene& scene, const std::vector
     std::vector<std::uint8_t> casts(scene.triangles.size(), 0);
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const auto first = scene.objects[i].first_triangle, end = first + scene.objects[i].triangle_count;
-        std::fill(casts.begin() + first, casts.begin() + end, kinds[i] == CasterKind::opaque ? 1 : 0);
+        const auto opaque = is_single_sided(scene, scene.objects[i]) ? casts_from_its_front : casts_from_both_sides;
+        std::fill(casts.begin() + first, casts.begin() + end, kinds[i] == CasterKind::opaque ? opaque : casts_nothing);
     }
-    const EdgeList list = build_edges(scene.positions_ws, scene.triangles, casts);
+    EdgeList list = build_edges(scene.positions_ws, scene.triangles, casts);
+    for (std::uint32_t& user : list.around) {
+        user |= casts[user >> 1U] == casts_from_its_front ? 1U << 31U : 0U;
+    }
     return {.count = static_cast<std::uint32_t>(list.edges.size()),
             .edges = upload(device, "silhouette edges", list.edges),
             .first = upload(device, "silhouette edge starts", list.first),
@@ -163,8 +170,8 @@ std::shared_ptr<const SilhouetteEdges> edges_of(Device& device, const Scene& sce
     static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const SilhouetteEdges>> alive;
     const std::vector<CasterKind> kinds = caster_kinds(scene, light);
     std::uint64_t salt = 0;
-    for (const CasterKind kind : kinds) {
-        salt = salt * 31 + static_cast<std::uint64_t>(kind);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        salt = salt * 31 + static_cast<std::uint64_t>(kinds[i]) + (is_single_sided(scene, scene.objects[i]) ? 4 : 0);
     }
     const std::lock_guard lock(mutex);
     std::erase_if(alive, [](const auto& entry) { return entry.second.expired(); });
