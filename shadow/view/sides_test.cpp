@@ -31,8 +31,8 @@ std::size_t seen_at(const FrameResult& frame, float y) {
 
 TEST(Sides, ABackShowsNothingAndCastsNothing) {
     // The same square above the floor, turned towards the sun and the camera, then away from both.
-    for (const char* technique :
-         {"hard", "silhouette", "volumes", "planar", "forward", "cascades", "hard,casters=dual", "hard,casters=ids"}) {
+    for (const char* technique : {"hard", "silhouette", "volumes", "planar", "forward", "cascades", "sdsm", "lispsm",
+                                  "psm", "tsm", "hard,casters=dual", "hard,casters=ids"}) {
         const auto towards = test::compare(under_the_sun(level({0, 1.5F, 0}, 1), one_side).load(), technique, small);
         EXPECT_GT(seen_at(towards.frame, 1.5F), 300U);
         EXPECT_LT(on_ground(towards, towards.truth.visibility).mean, 0.97);
