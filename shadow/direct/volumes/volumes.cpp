@@ -5,11 +5,10 @@
 // form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
 // (volumes.md).
 //
-// Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_stencil.cpp.
+// Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_counts.cpp.
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
-
-#include <algorithm>
 
 namespace gn::parts {
 
@@ -20,14 +19,16 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     const VolumeBuffers buffers = import_volume_buffers(input, params);
     add_facing(input, buffers);
     add_silhouettes(input, buffers);
-    const TextureHandle counts = add_receivers(input, buffers);
-    add_stencil(input, buffers, counts);
-    return add_stencil_resolve(input, counts);
+    const TextureHandle receivers = add_receivers(input, buffers);
+    const TextureHandle counts = add_counts(input, buffers, receivers);
+    return add_count_resolve(input, counts);
 }
 
 std::string remark(const Scene& scene, const Recipe& recipe) {
-    const bool masked = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                    [&](const Object& object) { return is_masked(scene, object); });
+    bool masked = false;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        masked = masked || (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr));
+    }
     if (!masked) {
         return "";
     }
@@ -47,7 +48,7 @@ const Part& direct_volumes() {
         .title = "Shadow volumes, z-fail",
         .citation = "EK02",
         .lights = all_lights,
-        .features = {Feature::depth32_stencil8},
+        .features = {Feature::float32_blend},
         .params = param_table<GnVolumesParams>({
             GN_CHOICE(GnVolumesParams, masked,
                       "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),

@@ -40,11 +40,11 @@ std::vector<std::uint32_t> component_forms(std::span<const Component> components
 void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
 /// Sums the triangles around every edge and lists the sides.
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
-/// A depth and stencil of its own: the view samples' depth, lifted where a sample touches the edge of a volume.
+/// A depth of its own: the view samples' depth, lifted where a sample touches the edge of a volume.
 TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers);
-/// Counts in the stencil how many volumes hold each view sample.
-void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle counts);
+/// Counts how many volumes hold each view sample.
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers);
 /// V = 1 where the count is zero and the sample counts for the light.
-Visibility add_stencil_resolve(const FrameInput& input, TextureHandle counts);
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts);
 
 }  // namespace gn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
-// [EK02] The raster passes of a light: counting in the stencil, and what the count says.
+// [EK02] The raster passes of a light: counting, and what the count says.
+// Departs from it: the count is a sum of blended floats, exact to 16 million, where eight bits of stencil wrap at 256.
 #include "shadow/direct/volumes/volumes_passes.h"
 
 namespace gn {
@@ -97,40 +98,40 @@ void main() {
 }
 )";
 
+constexpr const char* count_text = R"(
+layout(constant_id = 1) const int TURNED = 0;
+layout(location = 0) out float count;
+void main() {
+    // What lies behind the sample: +1 where a ray leaves the volume, -1 where it enters.
+    count = gl_FrontFacing == (TURNED == 0) ? -1.0 : 1.0;
+}
+)";
+
 constexpr const char* resolve_text = R"(
 #include "shadow/scene/light.h"
 layout(binding = 0, scalar) uniform Light { GnLight light; } u;
 layout(binding = 1) uniform sampler2D position_ws;
 layout(binding = 2) uniform sampler2D normal_ws;
+layout(binding = 3) uniform sampler2D counts;
 layout(location = 0) out float visibility;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 p_ws = texelFetch(position_ws, pixel, 0);
     bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, texelFetch(normal_ws, pixel, 0).xyz);
-    visibility = counted ? 1.0 : 0.0;
+    visibility = counted && texelFetch(counts, pixel, 0).r == 0.0 ? 1.0 : 0.0;
 }
 )";
 
-VkStencilOpState stencil(VkCompareOp compare, VkStencilOp depth_fail, VkStencilOp pass) {
-    return {.failOp = VK_STENCIL_OP_KEEP,
-            .passOp = pass,
-            .depthFailOp = depth_fail,
-            .compareOp = compare,
-            .compareMask = 0xFF,
-            .writeMask = 0xFF,
-            .reference = 0};
-}
-
-// Z-fail: what lies at or behind the sample counts, +1 where a ray leaves the volume, -1 where it enters. Depth is
-// reversed, so that a fragment passes when its depth is GREATER; opaque caps never pass (volumes.md derives both).
+// Z-fail: what lies at or behind the sample counts. Depth is reversed, so that this is LESS_OR_EQUAL; opaque caps always
+// count (volumes.md derives both).
 RasterDesc volume_pipeline(const char* name, const char* text, VkCompareOp compare, bool turned) {
-    const auto leave = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_INCREMENT_AND_WRAP, VK_STENCIL_OP_KEEP);
-    const auto enter = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_DECREMENT_AND_WRAP, VK_STENCIL_OP_KEEP);
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, name, text};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", count_text};
+    desc.constants = {{1, turned ? 1U : 0U}};
+    desc.blend = Blend::add;
     desc.depth_test = desc.depth_clamp = true;
     desc.depth_compare = compare;
-    desc.stencil = turned ? StencilOps{leave, enter} : StencilOps{enter, leave};
     return desc;
 }
 
@@ -153,8 +154,8 @@ RasterDesc border_pipeline() {
 }
 
 RasterDesc cap_pipeline(bool masked, bool turned) {
-    RasterDesc desc =
-        volume_pipeline("volume-cap.vert", cap_text, masked ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_NEVER, turned);
+    RasterDesc desc = volume_pipeline("volume-cap.vert", cap_text,
+                                      masked ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_ALWAYS, turned);
     desc.constants = {{0, masked ? 1U : 0U}, {1, turned ? 1U : 0U}};
     return desc;
 }
@@ -178,14 +179,12 @@ void set_inputs(Recorder& r, const VolumeBuffers& buffers, const SceneHandles& h
 
 TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers) {
     const ViewSamples& samples = input.samples;
-    const TextureHandle counts = input.graph.create(TextureDesc{.name = "volume counts",
-                                                                .format = VK_FORMAT_D32_SFLOAT_S8_UINT,
-                                                                .width = samples.width,
-                                                                .height = samples.height});
+    const TextureHandle lifted = input.graph.create(TextureDesc{
+        .name = "volume receivers", .format = VK_FORMAT_D32_SFLOAT, .width = samples.width, .height = samples.height});
     input.graph.add_pass(
         "volumes: receivers",
         [&](PassBuilder& pass) {
-            pass.depth(counts, Load::clear);
+            pass.depth(lifted, Load::clear);
             pass.sample(samples.depth);
             pass.sample(samples.position);
             pass.sample(samples.normal);
@@ -205,14 +204,19 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
             r.set("normal_ws", samples.normal);
             r.draw_indirect(buffers.draws, 0);
         });
-    return counts;
+    return lifted;
 }
 
-void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle counts) {
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers) {
+    const TextureHandle counts = input.graph.create(TextureDesc{.name = "volume counts",
+                                                                .format = VK_FORMAT_R32_SFLOAT,
+                                                                .width = input.samples.width,
+                                                                .height = input.samples.height});
     input.graph.add_pass(
-        "volumes: stencil",
+        "volumes: counts",
         [&](PassBuilder& pass) {
-            pass.depth_read_only(counts, {0, 1, 0, 1}, 0);
+            pass.color(counts, Load::clear);
+            pass.depth_read_only(receivers);
             for (const BufferHandle read : {input.handles.positions, input.handles.indices, buffers.edges,
                                             buffers.sides, buffers.caps, buffers.owners}) {
                 pass.storage_read(read);
@@ -220,7 +224,7 @@ void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureH
             pass.indirect(buffers.draws);
         },
         [buffers, handles = input.handles](Recorder& r) {
-            r.bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_GREATER, false));
+            r.bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_LESS_OR_EQUAL, false));
             set_inputs(r, buffers, handles);
             r.draw_indirect(buffers.draws, 0);
             for (const unsigned list : {0U, 1U, 2U, 3U}) {
@@ -229,9 +233,10 @@ void add_stencil(const FrameInput& input, const VolumeBuffers& buffers, TextureH
                 r.draw_indirect(buffers.draws, (list + 1) * sizeof(VkDrawIndirectCommand));
             }
         });
+    return counts;
 }
 
-Visibility add_stencil_resolve(const FrameInput& input, TextureHandle counts) {
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
     const ViewSamples& samples = input.samples;
     const TextureHandle image = input.graph.create(TextureDesc{
         .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
@@ -239,15 +244,13 @@ Visibility add_stencil_resolve(const FrameInput& input, TextureHandle counts) {
         "volumes: resolve",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
-            pass.depth_read_only(counts);
+            pass.sample(counts);
             pass.sample(samples.position);
             pass.sample(samples.normal);
         },
-        [samples, light = input.light().shape](Recorder& r) {
-            const auto outside = stencil(VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP);
-            RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-resolve.frag", resolve_text});
-            desc.stencil = StencilOps{outside, outside};
-            r.bind(desc);
+        [samples, counts, light = input.light().shape](Recorder& r) {
+            r.bind(fullscreen({ShaderKind::fragment, "volume-resolve.frag", resolve_text}));
+            r.set("counts", counts);
             r.set_value("u", light);
             r.set("position_ws", samples.position);
             r.set("normal_ws", samples.normal);
