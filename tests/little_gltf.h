@@ -15,9 +15,8 @@ class LittleGltf {
 
     /// `members` of the material without its braces; returns its index. Material 0 is a grey that both sides show.
     int material(const std::string& members) {
-        materials_.push_back("{" + members + (members.find("doubleSided") == std::string::npos
-                                                  ? R"(,"doubleSided":true})"
-                                                  : "}"));
+        materials_.push_back("{" + members +
+                             (members.find("doubleSided") == std::string::npos ? R"(,"doubleSided":true})" : "}"));
         return static_cast<int>(materials_.size()) - 1;
     }
 
@@ -94,8 +93,8 @@ inline std::vector<vec3> box(vec3 low, vec3 high, bool outwards = true) {
         {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
     std::vector<vec3> corners;
     for (const auto& f : faces) {
-        const std::vector<vec3> face = outwards ? quad(at(f[0]), at(f[1]), at(f[2]), at(f[3]))
-                                                : quad(at(f[3]), at(f[2]), at(f[1]), at(f[0]));
+        const std::vector<vec3> face =
+            outwards ? quad(at(f[0]), at(f[1]), at(f[2]), at(f[3])) : quad(at(f[3]), at(f[2]), at(f[1]), at(f[0]));
         corners.insert(corners.end(), face.begin(), face.end());
     }
     return corners;
