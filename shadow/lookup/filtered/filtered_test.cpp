@@ -23,6 +23,12 @@ TEST(Filtered, PixelFootprintIsThePixelsShareOfTheMap) {
     EXPECT_NEAR(glm::length(footprint.ddx_ts), 0.1 / 20, 1e-5);
     EXPECT_NEAR(glm::length(footprint.ddy_ts), 0.2 / 20, 1e-5);
 
+    // Each axis is the way to where the next pixel's receiver lies in the map.
+    glsl::GnReceiver beside = receiver;
+    beside.p_ws += receiver.ddx_ws;
+    const vec2 step_ts = glsl::gn_project(beside, view, GnBias{}).uv_ts - projected.uv_ts;
+    EXPECT_LT(glm::length(step_ts - footprint.ddx_ts), 1e-6F);
+
     // A radius in metres gives the same side whatever the pixel.
     GnFilteredParams world{.footprint = GN_FILTERED_WORLD, .radius_world = 0.5F};
     EXPECT_NEAR(glm::length(glsl::gn_filtered_footprint(receiver, projected, world).ddx_ts), 1.0 / 20, 1e-5);
