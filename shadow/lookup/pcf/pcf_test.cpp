@@ -29,12 +29,18 @@ double grid(int kernel, int size, float x, float y, Lit lit) {
     return sum / total;
 }
 
-TEST(Pcf, FiveOfNineTexelsGiveTheFigureOfTheThesis) {
-    // [Sam07] fig. 2.6: nine comparisons, five pass: 0.56.
-    const bool block[3][3] = {{true, true, true}, {true, true, false}, {false, false, false}};
-    const double v = grid(GN_PCF_3X3, 0, 1.5F, 1.5F,
-                          [&](int i, int j) { return i >= 0 && i < 3 && j >= 0 && j < 3 && block[j][i]; });
-    EXPECT_NEAR(v, 0.56, 0.005);
+TEST(Pcf, FourOfNineTexelsBehindTheReceiverGiveTheFigureOfTheThesis) {
+    // [Sam07] fig. 2.6: a receiver at 22, five texels at 11 and four at 53. The figure's 0.56 is the share in shadow, 5/9.
+    constexpr float receiver = 22;
+    const float depth[3][3] = {{11, 11, 53}, {11, 11, 53}, {11, 53, 53}};
+    for (const int kernel : {GN_PCF_3X3, GN_PCF_NXN}) {
+        const double v = grid(kernel, 3, 1.5F, 1.5F, [&](int i, int j) {
+            return i >= 0 && i < 3 && j >= 0 && j < 3 && receiver <= depth[j][i];
+        });
+        EXPECT_NEAR(v, 4.0 / 9, 1e-6);
+    }
+    // Averaging depths first would compare with 29.7 and say lit.
+    EXPECT_GT((5.0 * 11 + 4.0 * 53) / 9, static_cast<double>(receiver));
 }
 
 TEST(Pcf, WeightsOfEveryGridSumToOne) {
