@@ -152,5 +152,92 @@ TEST(PcfRendered, EveryKernelStaysInRangeAndFreeOfAcne) {
     }
 }
 
+/// The ground of the half-plane under a slanting sun, seen from straight above: its shadow ends at x = 2 metres. The camera
+/// is turned about its axis by an angle.
+Scene ground_from_above(float x, double turn) {
+    Scene scene = load_scene("half-plane:light=directional,hard=1");
+    scene.lights.front().shape.direction_ws = vec4(glm::normalize(vec3(1, -1, 0)), 0);
+    Camera& camera = scene.cameras.front();
+    camera.position_ws = {x, 1.5F, 0};
+    camera.forward_ws = {0, -1, 0};
+    camera.up_ws = vec3(dvec3(std::sin(turn), 0, -std::cos(turn)));
+    return scene;
+}
+
+/// The largest error of V against `expected`, a function of a pixel's distance from the shadow's edge over its width, and
+/// how many pixels the edge crosses.
+template <class Expected>
+std::pair<double, int> worst_at_edge(const Scene& scene, const std::string& recipe, Expected expected) {
+    constexpr uint pixels = 24;
+    const auto c = test::compare(scene, recipe, {.width = pixels, .height = pixels, .samples = 1});
+    const Camera& camera = scene.cameras.front();
+    const double width =
+        2 * std::tan(0.5 * static_cast<double>(camera.yfov)) * static_cast<double>(camera.position_ws.y) / pixels;
+    double worst = 0;
+    int crossed = 0;
+    for (std::size_t i = 0; i < c.frame.samples.position_ws.size(); ++i) {
+        const double v = expected((static_cast<double>(c.frame.samples.position_ws[i].x) - 2) / width);
+        worst = std::max(worst, std::abs(v - static_cast<double>(c.visibility().values[i])));
+        crossed += v > 0.01 && v < 0.99 ? 1 : 0;
+    }
+    return {worst, crossed};
+}
+
+TEST(PcfRendered, GridOverThePixelsFootprintIsItsBoxIntegral) {
+    // The map is fitted to the view, so that a pixel covers 512 / 24 texels of it, less the guard. The edge lies within half
+    // a texel of where the map has it, and the normal bias moves the receiver by a fraction of one more.
+    constexpr double texels = 20;
+    const auto box = [](double x) { return std::clamp(0.5 + x, 0.0, 1.0); };
+    const std::string recipe = "pcf,resolution=512,pcf.kernel=";
+    for (const float x : {2.0F, 2.013F, 2.031F}) {
+        for (const char* kernel : {"bilinear-nxn", "nxn", "bilinear"}) {
+            const auto [worst, crossed] =
+                worst_at_edge(ground_from_above(x, 0), recipe + kernel + ",pcf.footprint=pixel", box);
+            EXPECT_LT(worst, 1 / texels) << kernel << " at " << x;
+            EXPECT_GE(crossed, 24);
+        }
+        // Three texels of the twenty are no average over the pixel.
+        EXPECT_GT(worst_at_edge(ground_from_above(x, 0), recipe + "bilinear-nxn", box).first, 0.2);
+    }
+}
+
+TEST(PcfRendered, TurnedFootprintsAreBoundedByGridsAndFilledByDiscs) {
+    // A map over all of the scene, whose axes are the world's: 8192 texels over some 25 metres, 24 to a pixel.
+    const std::string recipe = "pcf,resolution=8192,placement=single,pcf.footprint=pixel,pcf.kernel=";
+    for (const double turn : {0.3, 0.785}) {
+        const double cosine = std::cos(turn);
+        const double sine = std::sin(turn);
+        const Scene scene = ground_from_above(2.013F, turn);
+        const auto box = [&](double x) { return std::clamp(0.5 + x / (cosine + sine), 0.0, 1.0); };
+        EXPECT_LT(worst_at_edge(scene, recipe + "bilinear-nxn", box).first, 0.05) << turn;
+
+        // The share of a turned square on one side of a line; 128 taps know it to a few of them.
+        const auto square = [&](double x) {
+            double lit = 0;
+            for (int i = 0; i < 64; ++i) {
+                for (int j = 0; j < 64; ++j) {
+                    lit += x + cosine * ((i + 0.5) / 64 - 0.5) + sine * ((j + 0.5) / 64 - 0.5) > 0 ? 1 : 0;
+                }
+            }
+            return lit / 4096;
+        };
+        const auto [worst, crossed] =
+            worst_at_edge(scene, recipe + "vogel,pcf.taps=128,pcf.radius=0,pcf.radius_world=0", square);
+        EXPECT_LT(worst, 0.05 + 3.0 / 128) << turn;
+        EXPECT_GE(crossed, 24);
+    }
+}
+
+TEST(PcfRendered, IdsNeedNoBiasOnAPlane) {
+    const std::string unbiased =
+        ",resolution=256,bias.constant=0,bias.normal=0,bias.cone=0,bias.receiver_plane=0,pcf.kernel=";
+    for (const char* kernel : {"bilinear-nxn", "gaussian", "vogel"}) {
+        const test::ComparisonOptions small{.width = 96, .height = 96, .samples = 1};
+        EXPECT_GT(*test::compare("tilted:angle=60", "pcf" + unbiased + kernel, small).errors.acne, 0.1) << kernel;
+        EXPECT_EQ(*test::compare("tilted:angle=60", "pcf,casters=ids" + unbiased + kernel, small).errors.acne, 0)
+            << kernel;
+    }
+}
+
 }  // namespace
 }  // namespace gn
