@@ -38,6 +38,26 @@ TEST(Lispsm, FalloffPassesLloydsPoints) {
     }
 }
 
+/// Wimmer et al.: under an angle gamma of view and light the centre of projection lies n_opt / sin(gamma) before the nearest
+/// receiver, metres on the light's plane; there w = 1 + (y - y_near) / n.
+TEST(Lispsm, OriginalFalloffDividesTheDistanceByTheSineOfTheAngle) {
+    const double near = 2;
+    const double far = 200;
+    for (const double tilt : {0.0, 0.5, 1.0, -2.0}) {
+        const Scene scene = test::long_floor(near, far, vec3(dvec3(0, 1, tilt)));
+        for (const double eta : {0.0, -0.5}) {
+            const GnLightView view =
+                test::place(scene, fmt::format("{},lispsm.falloff=wsp04,lispsm.eta={}", warped, eta)).views[0];
+            const dmat4 rows = glm::transpose(dmat4(view.cs_from_ws));
+            const double w_near =
+                std::min(glm::dot(rows[3], dvec4(0, 0, -near, 1)), glm::dot(rows[3], dvec4(0, 0, -far, 1)));
+            const double sine = 1 / std::sqrt(1 + tilt * tilt);
+            const double n = (near + std::sqrt(near * far)) / (sine * (1 + eta));
+            EXPECT_NEAR(w_near / glm::length(dvec3(rows[3])), n, 0.01 * n) << "tilt " << tilt << " eta " << eta;
+        }
+    }
+}
+
 /// C fig. 3.7 for a light overhead: e(z) = (n + z - z_n)^2 / (n (n + d) z / d) with n = z_n + sqrt(z_f z_n).
 TEST(Lispsm, ErrorAlongTheViewIsEqualAtBothEndsAndAtMostTheRootOfTheBest) {
     const double near = 2;
