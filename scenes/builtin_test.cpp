@@ -172,7 +172,8 @@ std::vector<std::string> names() {
         all.push_back(scene.name);
     }
     all.insert(all.end(), {"grid:objects=1,triangles=1600,lights=3", "overlap:arrangement=same", "slab:hard=1",
-                           "duel:light=spot"});
+                           "duel:light=spot", "car:light=spot", "boxes:light=spot", "disco-box:light=spot",
+                           "island:light=spot", "warehouse-inside:light=spot", "warehouse-outside:light=spot"});
     return all;
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, EveryScene, ::testing::ValuesIn(names()), [](const auto& row) {
@@ -222,6 +223,93 @@ TEST(Grid, HasTheTriangleCountsOfTheMeasurements) {
             EXPECT_EQ(scene.objects[i].triangle_count, static_cast<uint>(triangles));
         }
     }
+}
+
+/// Where an object's bounds have their centre.
+vec3 centre_of(const Scene& scene, const Object& object) {
+    Box box;
+    for (uint i = 0; i < object.triangle_count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            box.grow(scene.positions_ws[scene.triangles[object.first_triangle + i][k]]);
+        }
+    }
+    return 0.5F * (box.min + box.max);
+}
+
+TEST(Grid, StandsAroundTheOriginWhateverItsCount) {
+    // Full rows and one that is not: the raster's bounds are centred, and so is every row.
+    for (const int objects : {1, 2, 5, 7, 10, 25, 50, 200}) {
+        const Scene scene = make_builtin_scene(fmt::format("grid:objects={}", objects));
+        Box raster;
+        std::map<long, std::pair<float, int>> rows;
+        for (std::size_t i = 1; i < scene.objects.size(); ++i) {
+            const vec3 centre = centre_of(scene, scene.objects[i]);
+            raster.grow(centre);
+            auto& [sum, count] = rows[std::lround(4 * centre.z)];
+            sum += centre.x;
+            ++count;
+        }
+        // A ring of five sides is not its own mirror image: its bounds' centre is off by a few centimetres.
+        const vec3 centre = 0.5F * (raster.min + raster.max);
+        EXPECT_NEAR(centre.x, 0, 0.1) << objects;
+        EXPECT_NEAR(centre.z, 0, 0.1) << objects;
+    }
+    EXPECT_FLOAT_EQ(make_builtin_scene("grid").lights[0].shape.radius, 0.1F) << "its soft shadows are measured too";
+}
+
+/// [Sam07] 3.2.1, 4.1.2: the lights are spots that have a cone and a size.
+TEST(VanSambeek, SpotsHaveASizeAndAConeThatHoldsWhatStandsThere) {
+    for (const char* name : {"car", "boxes", "disco-box", "island", "warehouse-inside", "warehouse-outside"}) {
+        const Scene scene = make_builtin_scene(fmt::format("{}:light=spot", name));
+        const Scene plain = make_builtin_scene(name);
+        ASSERT_EQ(scene.lights.size(), plain.lights.size()) << name;
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            const GnLight& light = scene.lights[i].shape;
+            ASSERT_EQ(light.kind, uint(GN_LIGHT_SPOT)) << name;
+            EXPECT_GT(light.radius, 0) << name;
+            EXPECT_LT(light.cos_outer, light.cos_inner) << name;
+            EXPECT_GT(light.cos_outer, 0.6F) << name << ": a wider cone needs more than one map";
+            if (std::string_view(name) == "warehouse-inside") {
+                continue;  // its lamp hangs in the middle of what it lights
+            }
+            for (const Object& object : scene.objects) {
+                for (uint t = 0; t < object.triangle_count && !is_sheet(object); ++t) {
+                    const vec3 p_ws = scene.positions_ws[scene.triangles[object.first_triangle + t].x];
+                    const vec3 ray = glm::normalize(p_ws - vec3(light.position_ws));
+                    ASSERT_GT(glm::dot(ray, vec3(light.direction_ws)), light.cos_outer) << name << " " << object.name;
+                }
+            }
+        }
+    }
+}
+
+TEST(VanSambeek, SpotsAreAsBrightAsTheRectanglesThatTheyReplace) {
+    for (const char* name : {"car", "boxes", "disco-box", "warehouse-inside", "warehouse-outside"}) {
+        const Light spot = make_builtin_scene(fmt::format("{}:light=spot", name)).lights.front();
+        const Light rectangle = make_builtin_scene(name).lights.front();
+        const vec2 side = 2.0F * vec2(rectangle.shape.half_size);
+        EXPECT_NEAR(spot.shape.intensity, rectangle.shape.intensity * side.x * side.y, 1e-4F * spot.shape.intensity)
+            << name;
+        EXPECT_EQ(spot.shape.position_ws, rectangle.shape.position_ws) << name;
+        EXPECT_EQ(spot.shape.direction_ws, rectangle.shape.direction_ws) << name;
+    }
+}
+
+TEST(VanSambeek, IslandHasAFarLightOfASmallSizeAndWavesOnItsSea) {
+    // A light so far away that no penumbra shows, and yet an area light.
+    const Scene scene = make_builtin_scene("island");
+    EXPECT_GT(scene.lights[0].shape.angular_radius, 0.001F);
+    EXPECT_LT(scene.lights[0].shape.angular_radius, glm::radians(0.3F));
+    const GnLight spot = make_builtin_scene("island:light=spot").lights[0].shape;
+    const float distance = glm::length(vec3(spot.position_ws));
+    EXPECT_GT(distance, 300) << "ten times the island's half extent";
+    EXPECT_NEAR(spot.radius / distance, std::tan(scene.lights[0].shape.angular_radius), 1e-4F);
+    EXPECT_NEAR(spot.intensity / (distance * distance), scene.lights[0].shape.intensity, 1)
+        << "as bright at the island";
+    const auto sea =
+        std::find_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.name == "sea"; });
+    ASSERT_NE(sea, scene.materials.end());
+    EXPECT_GE(sea->base_color_texture, 0);
 }
 
 // What the sentence of a wrong name or parameter must mention.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/placement/receivers.h"
-#include "tests/rig.h"
+#include "tests/warp_scene.h"
 
 namespace gn {
 namespace {
@@ -39,6 +39,17 @@ TEST(Fit, CasterBeforeTheNearPlaneStillCasts) {
     }
     EXPECT_GT(shadowed, 200U);
     EXPECT_LT(*c.errors.leak, 0.05);
+}
+
+/// [Sam07] 3.2.1: his lights are spots, each a camera of its own; none of his scenes needs more than one map a light.
+TEST(Fit, OneMapServesEverySpotOfVanSambeeksScenes) {
+    for (const char* name : {"car", "boxes", "disco-box", "island", "warehouse-inside", "warehouse-outside"}) {
+        Scene scene = load_scene(fmt::format("{}:light=spot", name));
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            std::swap(scene.lights[0], scene.lights[i]);
+            EXPECT_EQ(test::place(scene, "hard,placement=fit").views.size(), 1U) << name << " " << scene.lights[0].name;
+        }
+    }
 }
 
 }  // namespace
