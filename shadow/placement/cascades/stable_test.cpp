@@ -241,6 +241,34 @@ TEST(CascadesRendered, ScrolledMapEqualsOneDrawnFromNothing) {
     }
 }
 
+/// Geometry that moves leaves no shadow where it was, though the scene is the same and has as many triangles.
+TEST(CascadesRendered, KeptMapsAreRedrawnWhereVerticesMoved) {
+    for (const char* kept_by : {"scroll=1", "rate=8"}) {
+        Scene scene = with_hard_sun("contact");
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        const std::string recipe = fmt::format("hard,resolution=256,placement=cascades,cascades.{}", kept_by);
+        const Camera& camera = scene.camera("");
+        History kept(test::device());
+        const Rendered before = render(gpu, camera, camera, recipe, &kept);
+        // The same again is kept: nothing moved.
+        EXPECT_EQ(differing(before.map, render(gpu, camera, camera, recipe, &kept).map), 0U);
+
+        // A side of the box moves inwards, so that all bounds still hold.
+        Object& box = scene.objects.back();
+        for (uint i = 0; i < box.triangle_count; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                float& x = scene.positions_ws[scene.triangles[box.first_triangle + i][k]].x;
+                x = x > 0.25F ? x : x + 0.25F;
+            }
+        }
+        gpu = upload_scene(test::device(), scene);
+        const Rendered after = render(gpu, camera, camera, recipe, &kept);
+        History empty(test::device());
+        EXPECT_EQ(differing(after.map, render(gpu, camera, camera, recipe, &empty).map), 0U) << kept_by;
+        EXPECT_GT(differing(after.map, before.map), 0U);
+    }
+}
+
 TEST(CascadesRendered, FarCascadesAreRedrawnAtTheirRateAndStillCoverTheirSlices) {
     const Scene scene = load_scene("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
