@@ -22,8 +22,9 @@ struct GnBias {
     float dual_world GN_DEFAULT(0.0f);  ///< metres, likewise; added
 
     // No parameters: how far the recipe's kernels reach, which the passes that apply a bias fill in.
-    float reach GN_DEFAULT(0.0f);        ///< texels
-    float reach_world GN_DEFAULT(0.0f);  ///< metres
+    float reach GN_DEFAULT(0.0f);         ///< texels
+    float reach_world GN_DEFAULT(0.0f);   ///< metres
+    float reach_pixels GN_DEFAULT(0.0f);  ///< pixels of the picture
 };
 
 #endif

@@ -192,16 +192,17 @@ TEST(BiasLaws, WithThePlaneTheConeOpensToWhereThePlaneFallsAway) {
 TEST(BiasLaws, TexelsGrowWithTheKernelUnlessThePlaneIsFollowed) {
     const float texel_ws = 0.02F;
     GnBias bias = no_bias;
-    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws), 1);
+    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws, 0), 1);
     bias.reach = 2.5F;
-    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws), 6);
+    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws, 0), 6);
     bias.reach_world = 0.1F;
-    EXPECT_NEAR(glsl::gn_bias_growth(bias, texel_ws), 11, 1e-4);
+    EXPECT_NEAR(glsl::gn_bias_growth(bias, texel_ws, 0), 11, 1e-4);
+    EXPECT_NEAR(glsl::gn_bias_growth(bias, texel_ws, 0.06F), 17, 1e-4);
     bias.kernel = 0;
-    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws), 1);
+    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws, 0), 1);
     bias.kernel = 1;
     bias.receiver_plane = 1;
-    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws), 1);
+    EXPECT_EQ(glsl::gn_bias_growth(bias, texel_ws, 0), 1);
 }
 
 TEST(BiasLaws, ReachIsTheKernelsHalfWidth) {

@@ -29,9 +29,10 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //   map         float gn_<id>_visibility(sampler2DArray map, sampler2DArray extra, GnProjected, vec2 ddx_ts, vec2 ddy_ts,
 //               Params), for maps that give "filterable"; the lookup `filtered` calls it as GN_MAP_VISIBILITY
 
-/// The reach of a kernel: the larger of both counts.
+/// The reach of a kernel: the larger of texels and metres, and besides half of `pixels` sides of the pixel's footprint on the
+/// map. Views are not widened by pixels: no receiver lies beyond the picture, and lookups leave out what lies beyond a view.
 struct Guard {
-    float texels = 0, metres = 0;
+    float texels = 0, metres = 0, pixels = 0;
 };
 
 class Part {

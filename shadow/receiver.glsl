@@ -108,10 +108,19 @@ GN_FN float gn_depth_per_metre(GnLightView view, vec3 to_eye_ws) {
     return view.paraboloid > 0.0f ? 1.0f / view.metres_per_depth : -dot(vec3(view.depth_from_ws), to_eye_ws);
 }
 
-// Factor of the biases in texels: they cover half a texel to each side, a kernel reaches further. Following the
-// receiver's plane leaves nothing of that to cover.
-GN_FN float gn_bias_growth(GnBias bias, float texel_ws) {
-    float reach = max(bias.reach, bias.reach_world / texel_ws);
+// Half a pixel's reach across the rays of light, in metres, where a kernel covers the pixel's footprint.
+GN_FN float gn_pixel_reach(GnReceiver receiver, vec3 to_eye_ws, GnBias bias) {
+    if (bias.reach_pixels <= 0.0f) {
+        return 0.0f;
+    }
+    return 0.5f * bias.reach_pixels *
+           (length(cross(receiver.ddx_ws, to_eye_ws)) + length(cross(receiver.ddy_ws, to_eye_ws)));
+}
+
+// Factor of the biases in texels: they cover half a texel to each side, a kernel reaches further, by `more_ws` metres where
+// it covers pixels. Following the receiver's plane leaves nothing of that to cover.
+GN_FN float gn_bias_growth(GnBias bias, float texel_ws, float more_ws) {
+    float reach = max(bias.reach, bias.reach_world / texel_ws) + more_ws / texel_ws;
     return 1.0f + (bias.receiver_plane == 0 ? 2.0f * bias.kernel * reach : 0.0f);
 }
 
@@ -121,7 +130,7 @@ GN_FN vec3 gn_biased(GnReceiver receiver, vec3 to_eye_ws, float texel_ws, GnBias
     float cosine = clamp(dot(receiver.n_ws, to_eye_ws), 0.0f, 1.0f);
     float sine = sqrt(max(0.0f, 1.0f - cosine * cosine));
     float tangent = cosine * bias.slope_max > sine ? sine / cosine : bias.slope_max;
-    float texels_ws = gn_bias_growth(bias, texel_ws) * texel_ws;
+    float texels_ws = gn_bias_growth(bias, texel_ws, gn_pixel_reach(receiver, to_eye_ws, bias)) * texel_ws;
     float towards_light = (bias.constant + bias.slope * tangent) * texels_ws + bias.constant_world;
     float along_normal = (bias.normal * texels_ws + bias.normal_world) * sine;
     float towards_camera = bias.view * texels_ws + bias.view_world;

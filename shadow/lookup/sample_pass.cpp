@@ -69,6 +69,7 @@ GnBias applied_bias(const Recipe& recipe) {
     GnBias bias = recipe.bias;
     bias.reach = std::max(0.0F, guard.texels - 2);
     bias.reach_world = guard.metres;
+    bias.reach_pixels = guard.pixels;
     return bias;
 }
 

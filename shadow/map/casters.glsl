@@ -37,7 +37,7 @@ GN_FN float gn_dual_limit(GnLightView view, vec2 uv_ts, float nearest, GnBias bi
     vec3 dv_ws;
     gn_uv_gradients(view, p_ws, du_ws, dv_ws);
     float texel_ws = 1.0f / (view.resolution * min(length(du_ws), length(dv_ws)));
-    float texels_ws = gn_bias_growth(bias, texel_ws) * texel_ws;
+    float texels_ws = gn_bias_growth(bias, texel_ws, 0.0f) * texel_ws;
     return (bias.dual * texels_ws + bias.dual_world) * gn_depth_per_metre(view, gn_to_eye(view, p_ws));
 }
 

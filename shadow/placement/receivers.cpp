@@ -182,6 +182,7 @@ Guard guard_of(const Recipe& recipe) {
             const Guard guard = part->guard(recipe);
             total.texels += guard.texels;
             total.metres += guard.metres;
+            total.pixels += guard.pixels;
         }
     }
     total.texels += 1;  // the receiver's own texel and the bias's shift

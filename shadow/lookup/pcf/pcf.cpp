@@ -18,12 +18,17 @@ bool is_grid(const GnPcfParams& params) {
 
 Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnPcfParams>("pcf");
+    Guard guard;
     if (is_grid(params)) {
         const int size = glsl::gn_pcf_size(params.kernel, params.size);
-        return {.texels = 0.5F * static_cast<float>(glsl::gn_pcf_footprint(params.kernel, size)) + 1.0F};
+        guard.texels = 0.5F * static_cast<float>(glsl::gn_pcf_footprint(params.kernel, size)) + 1.0F;
+    } else if (params.radius_world > 0) {
+        guard = {.texels = 1, .metres = params.radius_world};
+    } else {
+        guard.texels = params.radius + 1;
     }
-    return params.radius_world > 0 ? Guard{.texels = 1, .metres = params.radius_world}
-                                   : Guard{.texels = params.radius + 1};
+    guard.pixels = params.footprint == GN_PCF_OF_PIXEL ? 1.0F : 0.0F;
+    return guard;
 }
 
 /// The taps of a disc kernel on the unit disc, before it is turned.
@@ -42,7 +47,8 @@ std::vector<vec2> disc_of(const GnPcfParams& params) {
 /// Fixes the kernel and the loops' counts, and brings the generated set of taps.
 std::string prologue(const Recipe& recipe) {
     const auto params = recipe.of<GnPcfParams>("pcf");
-    std::string text = fmt::format("#define GN_PCF_KERNEL {}\n", params.kernel);
+    std::string text = fmt::format("#define GN_PCF_KERNEL {}\n#define GN_PCF_OVER_PIXEL {}\n", params.kernel,
+                                   params.footprint == GN_PCF_OF_PIXEL);
     if (is_grid(params)) {
         const int size = glsl::gn_pcf_size(params.kernel, params.size);
         text += fmt::format("#define GN_PCF_SIZE {}\n", size);
@@ -63,6 +69,10 @@ ParamTable rows() {
             GnPcfParams, kernel,
             "What the taps form: grids are exact box or Gaussian filters of the map, discs trade banding for noise.",
             "2x2", "3x3", "nxn", "bilinear", "bilinear-nxn", "gaussian", "poisson", "rotated-poisson", "vogel"),
+        GN_CHOICE(GnPcfParams, footprint,
+                  "What the taps cover: the kernel alone, or the pixel's own footprint on the map where that is larger "
+                  "(grids) or besides (discs), so that fine shadows far away fade instead of flicker.",
+                  "kernel", "pixel"),
         GN_PARAM(GnPcfParams, size, integer, 1, 31, "texels",
                  "Side of the n x n grids: wider edges, cost grows with its square."),
         GN_PARAM(GnPcfParams, taps, integer, 1, 128, "", "Taps of disc kernels: less noise, cost grows in proportion."),
@@ -88,6 +98,7 @@ const Part& lookup_pcf() {
         p.title = "Percentage-closer filtering";
         p.citation = "RSC87";
         p.needs = "depth";
+        p.compares_ids = true;
         p.params = rows();
         p.params_type = "GnPcfParams";
         p.glsl = "shadow/lookup/pcf/pcf.glsl";

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Percentage-closer filtering: compare first, then average.
 // Based on: Reeves, Salesin, Cook. Rendering Antialiased Shadows with Depth Maps. SIGGRAPH 1987. [RSC87]
-// Departs from it: grid kernels are separable weights over gathered texels; disc kernels use fixed sets of taps.
+// The pixel's footprint: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008.
+// [Lau08], 2.3.
+// Departs from them: grid kernels are separable weights over gathered texels, and take the rectangle around the footprint;
+// disc kernels use fixed sets of taps.
 #ifndef GN_SHADOW_LOOKUP_PCF_GLSL
 #define GN_SHADOW_LOOKUP_PCF_GLSL
 
@@ -60,6 +63,52 @@ GN_FN float gn_pcf_gaussian(int size, float t, int i) {
     return i <= size ? exp(-0.5f * x * x) : 0.0f;
 }
 
+// Texels of the map that a grid kernel covers along one axis, from `low` to `high`, around the receiver at `centre`.
+struct GnPcfSpan {
+    float low;
+    float high;
+    float centre;
+    float size;  // of the kernel or of the pixel's footprint, whichever is larger, before the map's border cuts it
+};
+
+// A kernel of `size` texels and a footprint of `pixel` texels, cut at the view's rectangle from `first` to `end`: beyond it
+// the map has no depths, and the weights of the rest sum to one. [Lau08] 2.3
+GN_FN GnPcfSpan gn_pcf_span(int kernel, int size, float pixel, float t, float first, float end) {
+    GnPcfSpan span;
+    span.size = max(float(size), pixel);
+    span.centre = t;
+    float low = t - 0.5f * span.size;
+    float high = t + 0.5f * span.size;
+    if (gn_pcf_snapped(kernel)) {
+        // Whole texels, as many as hold the footprint.
+        int texels = int(min(ceil(span.size), end - first));
+        low = float(gn_pcf_first(kernel, texels, t));
+        high = low + float(texels);
+    } else if (kernel == GN_PCF_GAUSSIAN) {
+        low = floor(low);
+        high = floor(high) + 1.0f;
+    }
+    span.low = clamp(low, first, end - 1.0f);
+    span.high = clamp(high, span.low, end);
+    return span;
+}
+
+// Weight of the texel that spans [texel, texel + 1), not normalized.
+GN_FN float gn_pcf_span_weight(int kernel, GnPcfSpan span, float texel) {
+    float covered = clamp(min(texel + 1.0f, span.high) - max(texel, span.low), 0.0f, 1.0f);
+    if (kernel != GN_PCF_GAUSSIAN) {
+        return covered;
+    }
+    float x = (texel + 0.5f - span.centre) / (span.size / 3.0f);
+    return covered > 0.0f ? exp(-0.5f * x * x) : 0.0f;
+}
+
+// Where tap i looks within the pixel, in pixels from its centre: additive recurrence by the plastic number, which fills the
+// square evenly whatever the count.
+GN_FN vec2 gn_pcf_subpixel(int i) {
+    return fract(vec2(0.75487767f, 0.56984029f) * float(i) + 0.5f) - 0.5f;
+}
+
 // Point i of n on a disc: the golden-angle spiral. [Vog79]
 GN_FN vec2 gn_pcf_vogel(int i, int n, float phase) {
     float r = sqrt((float(i) + 0.5f) / float(n));
@@ -93,6 +142,23 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 #ifndef GN_PCF_EARLY_OUT
 #define GN_PCF_EARLY_OUT (params.early_out != 0)
 #endif
+#ifndef GN_PCF_OVER_PIXEL
+#define GN_PCF_OVER_PIXEL (params.footprint == GN_PCF_OF_PIXEL)
+#endif
+
+// Where a host draws ids, GN_CASTER_IDS is defined and shadow_map_extra holds them: an object never shadows itself. [HN85]
+vec4 gn_pcf_gather(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, vec2 corner_ts) {
+    float half_ts = 0.5 * projected.texel_ts;
+    vec2 d_ts = corner_ts - projected.uv_ts;
+    vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
+    vec4 lit = vec4(gn_lit_beside(projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
+                                  d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, bias));
+#ifdef GN_CASTER_IDS
+    vec4 ids = textureGather(shadow_map_extra, vec3(corner_ts, projected.layer));
+    lit = max(lit, vec4(equal(ids, vec4(float(receiver.object)))));
+#endif
+    return lit;
+}
 
 float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
     return params.kernel == GN_PCF_GAUSSIAN ? gn_pcf_gaussian(params.size, t, i)
@@ -100,11 +166,10 @@ float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
 }
 
 // Gather the footprint in blocks of 2 x 2 texels and weigh each comparison by its row and column.
-float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
+float gn_pcf_grid(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
     vec2 t = projected.uv_ts / projected.texel_ts;
     ivec2 first = ivec2(gn_pcf_first(params.kernel, params.size, t.x), gn_pcf_first(params.kernel, params.size, t.y));
     vec2 first_ts = vec2(first + 1) * projected.texel_ts;
-    float half_ts = 0.5 * projected.texel_ts;
     float sum = 0.0;
     float total = 0.0;
     for (int y = 0; y < GN_PCF_FOOTPRINT; y += 2) {
@@ -113,10 +178,7 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
             vec2 wx = vec2(gn_pcf_axis_weight(params, t.x, x), gn_pcf_axis_weight(params, t.x, x + 1));
             // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
             vec2 corner_ts = first_ts + vec2(x, y) * projected.texel_ts;
-            vec2 d_ts = corner_ts - projected.uv_ts;
-            vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
-            vec4 lit = vec4(gn_lit_beside(projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
-                                          d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, bias));
+            vec4 lit = gn_pcf_gather(receiver, projected, bias, map, corner_ts);
             sum += dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
             total += (wx.x + wx.y) * (wy.x + wy.y);
         }
@@ -124,29 +186,72 @@ float gn_pcf_grid(GnProjected projected, GnBias bias, sampler2DArray map, GnPcfP
     return params.kernel == GN_PCF_GAUSSIAN ? sum / total : sum;
 }
 
+// A step of a pixel of the picture, on the map.
+vec2 gn_pcf_step(GnProjected projected, vec3 step_ws) {
+    return vec2(dot(projected.du_ws, step_ws), dot(projected.dv_ws, step_ws));
+}
+
+// The same over all texels of the rectangle around what the kernel and the pixel cover.
+float gn_pcf_grid_over_pixel(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
+                             GnPcfParams params) {
+    vec2 t = projected.uv_ts / projected.texel_ts;
+    vec2 pixel = (abs(gn_pcf_step(projected, receiver.ddx_ws)) + abs(gn_pcf_step(projected, receiver.ddy_ws))) / projected.texel_ts;
+    vec4 border = round(projected.bounds_ts / projected.texel_ts);
+    GnPcfSpan across = gn_pcf_span(params.kernel, params.size, pixel.x, t.x, border.x, border.z);
+    GnPcfSpan down = gn_pcf_span(params.kernel, params.size, pixel.y, t.y, border.y, border.w);
+    float sum = 0.0;
+    float total = 0.0;
+    for (float y = floor(down.low); y < down.high; y += 2.0) {
+        vec2 wy = vec2(gn_pcf_span_weight(params.kernel, down, y), gn_pcf_span_weight(params.kernel, down, y + 1.0));
+        for (float x = floor(across.low); x < across.high; x += 2.0) {
+            vec2 wx = vec2(gn_pcf_span_weight(params.kernel, across, x), gn_pcf_span_weight(params.kernel, across, x + 1.0));
+            vec4 lit = gn_pcf_gather(receiver, projected, bias, map, (vec2(x, y) + 1.0) * projected.texel_ts);
+            sum += dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
+            total += (wx.x + wx.y) * (wy.x + wy.y);
+        }
+    }
+    return sum / total;
+}
+
 // Four taps of a disc kernel: the texels that they fall into, compared at the texels' centres.
-vec4 gn_pcf_taps(GnProjected projected, GnBias bias, sampler2DArray map, vec4 u_ts, vec4 v_ts) {
+vec4 gn_pcf_taps(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, vec4 u_ts, vec4 v_ts) {
     vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
     vec4 u = floor(clamp(u_ts, projected.bounds_ts.x, last_ts.x) / projected.texel_ts);
     vec4 v = floor(clamp(v_ts, projected.bounds_ts.y, last_ts.y) / projected.texel_ts);
     vec4 occluder;
+    vec4 own = vec4(0.0);
     for (int k = 0; k < 4; ++k) {
         occluder[k] = texelFetch(map, ivec3(u[k], v[k], projected.layer), 0).r;
+#ifdef GN_CASTER_IDS
+        own[k] = float(texelFetch(shadow_map_extra, ivec3(u[k], v[k], projected.layer), 0).r == float(receiver.object));
+#endif
     }
-    return vec4(gn_lit_at(projected, (u + 0.5) * projected.texel_ts, (v + 0.5) * projected.texel_ts, occluder, bias));
+    vec4 lit = vec4(gn_lit_at(projected, (u + 0.5) * projected.texel_ts, (v + 0.5) * projected.texel_ts, occluder, bias));
+    return max(lit, own);
 }
 
-// How many of four taps are lit: their points on the unit disc, turned and scaled; `counted` is 1 or 0 each.
-float gn_pcf_four(GnProjected projected, GnBias bias, sampler2DArray map, vec2 radius_ts, vec2 turn, vec4 x, vec4 y,
-                  vec4 counted) {
+// How many of four taps are lit, the first of them tap `first`: their points on the unit disc, turned and scaled; `counted`
+// is 1 or 0 each. Over the pixel each tap looks from another place in it.
+float gn_pcf_four(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params,
+                  vec2 radius_ts, vec2 turn, int first, vec4 x, vec4 y, vec4 counted) {
     vec4 u_ts = projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
     vec4 v_ts = projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
-    return dot(counted, gn_pcf_taps(projected, bias, map, u_ts, v_ts));
+    if (GN_PCF_OVER_PIXEL) {
+        vec2 right_ts = gn_pcf_step(projected, receiver.ddx_ws);
+        vec2 below_ts = gn_pcf_step(projected, receiver.ddy_ws);
+        for (int k = 0; k < 4; ++k) {
+            vec2 p_ss = gn_pcf_subpixel(first + k);
+            vec2 d_ts = p_ss.x * right_ts + p_ss.y * below_ts;
+            u_ts[k] += d_ts.x;
+            v_ts[k] += d_ts.y;
+        }
+    }
+    return dot(counted, gn_pcf_taps(receiver, projected, bias, map, u_ts, v_ts));
 }
 
 #ifndef GN_PCF_PROBES
-float gn_pcf_spiral(GnProjected projected, GnBias bias, sampler2DArray map, vec2 radius_ts, vec2 turn, int taps,
-                    int first, int end) {
+float gn_pcf_spiral(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params,
+                    vec2 radius_ts, vec2 turn, int taps, int first, int end) {
     float sum = 0.0;
     for (int i = first; i < end; i += 4) {
         vec4 x;
@@ -157,7 +262,7 @@ float gn_pcf_spiral(GnProjected projected, GnBias bias, sampler2DArray map, vec2
             y[k] = p.y;
         }
         vec4 counted = vec4(lessThan(i + ivec4(0, 1, 2, 3), ivec4(taps)));
-        sum += gn_pcf_four(projected, bias, map, radius_ts, turn, x, y, counted);
+        sum += gn_pcf_four(receiver, projected, bias, map, params, radius_ts, turn, i, x, y, counted);
     }
     return sum;
 }
@@ -173,10 +278,13 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
     int probes = min(GN_PCF_TAPS, 8);
     float sum = 0.0;
 #ifdef GN_PCF_PROBES
-#define GN_PCF_TAKE(x, y, counted) sum += gn_pcf_four(projected, bias, map, radius_ts, turn, x, y, counted);
+    int tap = 0;
+#define GN_PCF_TAKE(x, y, counted)                                                                   \
+    sum += gn_pcf_four(receiver, projected, bias, map, params, radius_ts, turn, tap, x, y, counted); \
+    tap += 4;
     GN_PCF_PROBES(GN_PCF_TAKE)
 #else
-    sum = gn_pcf_spiral(projected, bias, map, radius_ts, turn, GN_PCF_TAPS, 0, probes);
+    sum = gn_pcf_spiral(receiver, projected, bias, map, params, radius_ts, turn, GN_PCF_TAPS, 0, probes);
 #endif
 
     // Two steps: where the first taps agree, the rest would. (Uralsky's early out, [EASW09] 4.2)
@@ -187,7 +295,7 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
     GN_PCF_OTHERS(GN_PCF_TAKE)
 #undef GN_PCF_TAKE
 #else
-    sum += gn_pcf_spiral(projected, bias, map, radius_ts, turn, GN_PCF_TAPS, probes, GN_PCF_TAPS);
+    sum += gn_pcf_spiral(receiver, projected, bias, map, params, radius_ts, turn, GN_PCF_TAPS, probes, GN_PCF_TAPS);
 #endif
     return sum / float(GN_PCF_TAPS);
 }
@@ -196,8 +304,11 @@ float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias,
                         GnPcfParams params) {
     params.kernel = GN_PCF_KERNEL;
     params.size = GN_PCF_SIZE;
-    return params.kernel <= GN_PCF_GAUSSIAN ? gn_pcf_grid(projected, bias, map, params)
-                                            : gn_pcf_discs(receiver, projected, bias, map, params);
+    if (params.kernel > GN_PCF_GAUSSIAN) {
+        return gn_pcf_discs(receiver, projected, bias, map, params);
+    }
+    return GN_PCF_OVER_PIXEL ? gn_pcf_grid_over_pixel(receiver, projected, bias, map, params)
+                             : gn_pcf_grid(receiver, projected, bias, map, params);
 }
 #endif
 

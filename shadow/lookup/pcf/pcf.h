@@ -15,8 +15,12 @@
 #define GN_PCF_ROTATED_POISSON 7
 #define GN_PCF_VOGEL 8
 
+#define GN_PCF_OF_KERNEL 0
+#define GN_PCF_OF_PIXEL 1
+
 struct GnPcfParams {
     int kernel GN_DEFAULT(GN_PCF_BILINEAR_NXN);
+    int footprint GN_DEFAULT(GN_PCF_OF_KERNEL);
     int size GN_DEFAULT(3);
     int taps GN_DEFAULT(16);
     float radius GN_DEFAULT(2.0f);

@@ -91,6 +91,67 @@ TEST(Pcf, GridsAreMonotoneAcrossAnEdge) {
     }
 }
 
+/// V of a grid kernel over a footprint of `pixel` texels on a straight edge: texels left of `edge` are lit.
+double over_pixel(int kernel, int size, float pixel, float t, int edge, float first, float end) {
+    size = gn_pcf_size(kernel, size);
+    const GnPcfSpan span = gn_pcf_span(kernel, size, pixel, t, first, end);
+    double sum = 0;
+    double total = 0;
+    for (float texel = std::floor(span.low); texel < span.high; texel += 1) {
+        const auto w = static_cast<double>(gn_pcf_span_weight(kernel, span, texel));
+        total += w;
+        sum += texel < static_cast<float>(edge) ? w : 0;
+    }
+    return sum / total;
+}
+
+TEST(Pcf, FootprintOfThePixelIsItsBoxIntegral) {
+    for (const float pixel : {0.2F, 2.9F, 7.3F, 40.0F, 333.3F}) {
+        for (float t = 300; t < 1100; t += 13.7F) {
+            const double side = std::max(3.0, static_cast<double>(pixel));
+            const double exact = std::clamp((700.0 - (static_cast<double>(t) - 0.5 * side)) / side, 0.0, 1.0);
+            EXPECT_NEAR(over_pixel(GN_PCF_BILINEAR_NXN, 3, pixel, t, 700, 0, 2048), exact, 1e-4)
+                << pixel << " at " << t;
+            // Whole texels are one more at most.
+            EXPECT_NEAR(over_pixel(GN_PCF_NXN, 3, pixel, t, 700, 0, 2048), exact, 1 / side) << pixel << " at " << t;
+        }
+    }
+}
+
+TEST(Pcf, FootprintLargerThanTheMapIsTheMapsMean) {
+    // A view's rectangle from texel 256 to 512: what lies beyond it belongs to other views and counts for nothing.
+    for (const int kernel : {GN_PCF_2X2, GN_PCF_NXN, GN_PCF_BILINEAR_NXN}) {
+        EXPECT_NEAR(over_pixel(kernel, 5, 1e6F, 300, 320, 256, 512), 0.25, 1e-6) << kernel;
+        EXPECT_EQ(over_pixel(kernel, 5, 4, 256, 256, 256, 512), 0) << kernel;
+        EXPECT_EQ(over_pixel(kernel, 5, 4, 512, 512, 256, 512), 1) << kernel;
+    }
+}
+
+TEST(Pcf, SmallFootprintsLeaveTheKernelAsItIs) {
+    for (int kernel = GN_PCF_2X2; kernel <= GN_PCF_GAUSSIAN; ++kernel) {
+        for (float t = 12; t < 28; t += 0.17F) {
+            EXPECT_NEAR(over_pixel(kernel, 5, 0.9F, t, 20, 0, 64),
+                        grid(kernel, 5, t, 5.3F, [](int i, int) { return i < 20; }), 1e-5)
+                << "kernel " << kernel << " at " << t;
+        }
+    }
+}
+
+TEST(Pcf, SubpixelsFillTheSquareEvenly) {
+    // Boxes at the corner hold their share of n points to a few of them; a plain sequence of halves would not.
+    for (const int n : {16, 64, 256}) {
+        for (const float side : {0.25F, 0.5F, 0.75F}) {
+            int inside = 0;
+            for (int i = 0; i < n; ++i) {
+                const vec2 p = gn_pcf_subpixel(i) + 0.5F;
+                ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+                inside += p.x < side && p.y < side ? 1 : 0;
+            }
+            EXPECT_NEAR(inside, static_cast<double>(side * side) * n, 2 + std::log2(n) / 2) << n << " " << side;
+        }
+    }
+}
+
 TEST(Pcf, SpiralFillsTheDiscEvenly) {
     // The taps' share in a half plane tends to the disc's segment area: taps to infinity is the integral.
     const auto error = [](int taps) {
