@@ -195,9 +195,12 @@ double falloff(double angle, double half_field) {
 namespace {
 
 /// The rectangle turns to the unwarped map's as the warp fades, so that the two meet.
+double turn_of(const Plane2& plane, double eta) {
+    return std::clamp((-0.2 - eta) / 0.8, 0.0, 1.0) * plane.turn;
+}
+
 Warp even_warp(const Plane2& plane, double eta) {
-    const double fade = std::clamp((-0.2 - eta) / 0.8, 0.0, 1.0);
-    return make_warp(plane, strength_of(eta, plane.near, plane.far, plane.length), fade * plane.turn);
+    return make_warp(plane, strength_of(eta, plane.near, plane.far, plane.length), turn_of(plane, eta));
 }
 
 }  // namespace
@@ -222,6 +225,15 @@ GnLightView even_view(const Plane2& plane, double eta) {
         (worst_error(plane, tried) <= limit ? low : high) = middle;
     }
     return low <= 1e-5 ? plane.fitted : view_of(plane, even_warp(plane, low - 1));
+}
+
+GnLightView sine_view(const Plane2& plane, double eta) {
+    // n' = n / sin(gamma) [WSP04]; the parameter as for the even warp, with a body one metre of depth a metre of plane.
+    const double sine = std::sin(plane.angle);
+    const double depth = plane.metre * (plane.far - plane.near);
+    const double strength = sine * strength_of(eta, plane.near, plane.far, depth);
+    const double share = (1 + eta) * sine;
+    return share <= 1e-5 ? plane.fitted : view_of(plane, make_warp(plane, strength, turn_of(plane, share - 1)));
 }
 
 }  // namespace gn::warp

@@ -32,6 +32,7 @@ struct Plane2 {
     double angle = 0;             ///< between view and light, 0 to pi/2
     double half_field = 0;        ///< of the camera's frustum in the plane of view and light, radians
     double turn = 0;              ///< from these axes to the fitted rectangle's, at most an eighth of a full turn
+    double metre = 1;             ///< in the plane's unit, at the body's centre
     double reach = 0;             ///< of the kernels, in the plane's unit
     double share = 0;             ///< of the kernels, as a share of the map
 };
@@ -64,6 +65,9 @@ double falloff(double angle, double half_field);
 /// The warp of light space perspective shadow maps: the even error's at eta = 0, faded by the falloff, and at most so
 /// strong that no receiver gets a coarser texel on screen than the coarsest of the unwarped map.
 GnLightView even_view(const Plane2& plane, double eta);
+/// The same as first published: the centre lies n / sin(angle) before the nearest receiver, on the light's plane, whatever
+/// that does to texels.
+GnLightView sine_view(const Plane2& plane, double eta);
 /// A receiver this near, in metres, steers the warp unless asked otherwise.
 inline constexpr double usual_near = 1;
 

@@ -102,6 +102,7 @@ std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, 
     }
     const dvec3 axis(vec3(input.light().shape.direction_ws));
     set_angles(plane, view, positional ? glm::normalize(centre - dvec3(vec3(fitted.eye_ws))) : axis);
+    plane.metre = 1 / glm::dot(plane.w_row, dvec4(centre, 1));
     const dvec2 q = on_plane(plane, centre);
     const dvec2 along(glm::dot(dvec3(plane.x_row - q.x * plane.w_row), view.forward),
                       glm::dot(dvec3(plane.y_row - q.y * plane.w_row), view.forward));

@@ -2,8 +2,8 @@
 // One map, fitted to the potential shadow receivers and warped along the view, at most as strongly as it helps.
 //
 // Based on: Wimmer, Scherzer, Purgathofer. Light Space Perspective Shadow Maps. EGSR 2004. [WSP04]
-// Departs from it: the warp fades by Lloyd's function of the angle between view and light, not by its sine [Llo07], and
-// is weakened further where some receiver would get coarser texels than the unwarped map's worst.
+// Departs from it: unless asked for the original, the warp fades by Lloyd's function of the angle between view and light, not
+// by its sine [Llo07], and is weakened further where some receiver would get coarser texels than the unwarped map's worst.
 #include "shadow/placement/lispsm/lispsm.h"
 
 #include "shadow/placement/warp.h"
@@ -12,7 +12,9 @@ namespace gn {
 namespace {
 
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
-    return warp::even_view(plane, static_cast<double>(recipe.of<GnLispsmParams>("lispsm").eta));
+    const auto params = recipe.of<GnLispsmParams>("lispsm");
+    const auto eta = static_cast<double>(params.eta);
+    return params.falloff == GN_LISPSM_WSP04 ? warp::sine_view(plane, eta) : warp::even_view(plane, eta);
 }
 
 LightViews place_lispsm(const FrameInput& input, const Recipe& recipe) {
@@ -31,6 +33,10 @@ const Part& placement_lispsm() {
         p.title = "Light space perspective shadow maps";
         p.citation = "WSP04";
         p.params = param_table<GnLispsmParams>({
+            GN_CHOICE(GnLispsmParams, falloff,
+                      "How the warp fades as the light turns into the view: by Lloyd's function and never beyond what "
+                      "helps, or by the sine of the angle as first published, which is too strong at small angles.",
+                      "lloyd", "wsp04"),
             GN_PARAM(
                 GnLispsmParams, near, real, 0, 1e6, "m",
                 "Pseudo-near plane: a larger one gives far receivers finer texels and those nearer than it coarser "
