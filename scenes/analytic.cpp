@@ -216,6 +216,33 @@ Light rectangle_light(std::string name, vec3 at, vec3 target, vec2 half_size, fl
     return light;
 }
 
+Light spot_light(std::string name, vec3 at, vec3 target, float radius, float candela, float outer_degrees, vec3 color) {
+    Light light;
+    light.name = std::move(name);
+    light.shape.kind = GN_LIGHT_SPOT;
+    light.shape.position_ws = vec4(at, 0);
+    light.shape.direction_ws = vec4(glm::normalize(target - at), 0);
+    light.shape.radius = radius;
+    light.shape.intensity = candela;
+    light.shape.cos_inner = std::cos(glm::radians(0.9F * outer_degrees));
+    light.shape.cos_outer = std::cos(glm::radians(outer_degrees));
+    light.shape.color = vec4(color, 1);
+    return light;
+}
+
+int raster_columns(int count) {
+    return static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))));
+}
+
+vec2 raster_cell(int i, int count) {
+    const int columns = raster_columns(count);
+    const int rows = (count + columns - 1) / columns;
+    const int row = i / columns;
+    const int in_row = std::min(columns, count - row * columns);
+    return {static_cast<float>(i % columns) - 0.5F * static_cast<float>(in_row - 1),
+            static_cast<float>(row) - 0.5F * static_cast<float>(rows - 1)};
+}
+
 Camera look_at(std::string name, vec3 eye, vec3 target, float yfov_degrees, float near, float far) {
     Camera camera;
     camera.name = std::move(name);

@@ -53,6 +53,17 @@ Light directional_light(std::string name, vec3 to_light, float lux, float radius
 Light rectangle_light(std::string name, vec3 at, vec3 target, vec2 half_size, float candela_per_m2,
                       vec3 color = vec3(1));
 
+/// A spot with a disc of a radius that shines from `at` towards `target`; its cone begins to fade at nine tenths of its half
+/// angle.
+Light spot_light(std::string name, vec3 at, vec3 target, float radius, float candela, float outer_degrees,
+                 vec3 color = vec3(1));
+
+/// Where thing i of `count` stands in a square raster of cells of size one around the origin; rows that are not full stand in
+/// the middle too.
+vec2 raster_cell(int i, int count);
+/// Cells of the raster along x.
+int raster_columns(int count);
+
 Camera look_at(std::string name, vec3 eye, vec3 target, float yfov_degrees, float near, float far);
 
 /// Adds one closed mesh per box under one object name, and returns the boxes as the closed form sees them.

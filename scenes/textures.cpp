@@ -108,6 +108,17 @@ Texture wood_texture(std::string name, vec3 linear_rgb, std::uint32_t seed) {
     });
 }
 
+Texture water_texture(std::string name, vec3 linear_rgb, std::uint32_t seed) {
+    return paint(std::move(name), [=](float u, float v) {
+        // Crests bend with a slow swell; patches of wind roughen them.
+        const float swell = fractal_noise(3 * u, 3 * v, 3, 3, seed) - 0.5F;
+        const float crests = fractal_noise(8 * u + 2 * swell, 24 * v + 5 * swell, 8, 3, seed + 7) - 0.5F;
+        const float wind = value_noise(2 * u, 2 * v, 2, seed + 11);
+        const float light = 1 + 0.5F * swell + (0.8F + 1.2F * wind) * crests;
+        return vec4(linear_rgb * std::max(light, 0.3F), 1);
+    });
+}
+
 Texture twig_texture(std::string name, vec3 linear_rgb, std::uint32_t seed) {
     const std::vector<Leaf> leaves = twig_leaves(seed);
     Texture texture = paint(std::move(name), [&](float u, float v) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "car" of section 4.1.2: a car on a box under two near area lights.
-#include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/registry.h"
+#include "scenes/van_sambeek/lights.h"
 
 namespace gn::scenes {
 namespace {
 
 struct GnCarParams {
+    int light = as_rectangle;
     float size = 0.6F;
 };
 
@@ -77,13 +78,11 @@ Scene make(const ParamBlock& block) {
                builder.material("steel", {0.5F, 0.5F, 0.52F}, 0.4F, 0.6F));
     builder.finish();
 
-    // 1000 lux from each light at the car's height, whatever the size.
-    const float area = params.size * params.size;
-    const float brightness = area > 0 ? 9000 / area : 9000;
-    scene.lights.push_back(rectangle_light("front", {2.2F, 4.0F, 1.6F}, {0.2F, 0.5F, 0}, vec2(0.5F * params.size),
-                                           brightness, {1, 0.93F, 0.82F}));
-    scene.lights.push_back(rectangle_light("rear", {-2.6F, 3.8F, -0.8F}, {-0.2F, 0.5F, 0}, vec2(0.5F * params.size),
-                                           brightness, {0.82F, 0.9F, 1}));
+    // 1000 lux from each light at the height of the roof, whatever the size.
+    scene.lights.push_back(sized_light(params.light, "front", {2.2F, 4.0F, 1.6F}, {0.2F, 0.5F, 0}, params.size, 9000,
+                                       53, {1, 0.93F, 0.82F}));
+    scene.lights.push_back(sized_light(params.light, "rear", {-2.6F, 3.8F, -0.8F}, {-0.2F, 0.5F, 0}, params.size, 9000,
+                                       53, {0.82F, 0.9F, 1}));
     scene.cameras.push_back(look_at("main", {3.9F, 2.6F, 4.6F}, {0.1F, 0.55F, 0.1F}, 40, 0.1F, 80));
     return scene;
 }
@@ -91,10 +90,12 @@ Scene make(const ParamBlock& block) {
 }  // namespace
 
 const Generator& car() {
-    static const Generator row{"car", "A car on a box under two near area lights: wide penumbrae.",
-                               param_table<GnCarParams>({GN_PARAM(GnCarParams, size, real, 0.05, 2, "m",
-                                                                  "Width of each light: softer shadows.")}),
-                               make};
+    static const Generator row{
+        "car", "A car on a box under two near area lights: wide penumbrae.",
+        param_table<GnCarParams>(
+            {GN_CHOICE(GnCarParams, light, light_sentence, "rectangle", "spot"),
+             GN_PARAM(GnCarParams, size, real, 0.05, 2, "m", "Width of each light: softer shadows.")}),
+        make};
     return row;
 }
 

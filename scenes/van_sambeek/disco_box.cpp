@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The scene "disco box" of section 4.1.2: a box among three near area lights in red, green and blue.
-#include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/registry.h"
+#include "scenes/van_sambeek/lights.h"
 
 namespace gn::scenes {
 namespace {
 
 struct GnDiscoParams {
+    int light = as_rectangle;
     float size = 0.5F;
 };
 
@@ -29,8 +30,7 @@ Scene make(const ParamBlock& block) {
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const float a = 2 * pi * (static_cast<float>(i) / 3 + 0.08F);
         const vec3 at(2.1F * std::sin(a), 2.3F, 2.1F * std::cos(a));
-        scene.lights.push_back(rectangle_light(names[i], at, {0, 0.3F, 0}, vec2(0.5F * params.size),
-                                               6000 / (params.size * params.size), colors[i]));
+        scene.lights.push_back(sized_light(params.light, names[i], at, {0, 0.3F, 0}, params.size, 6000, 53, colors[i]));
     }
     scene.cameras.push_back(look_at("main", {0.9F, 3.4F, 3.6F}, {0, 0.15F, 0}, 45, 0.1F, 60));
     return scene;
@@ -42,7 +42,8 @@ const Generator& disco_box() {
     static const Generator row{
         "disco-box", "A box among three near area lights in red, green and blue: overlapping soft shadows.",
         param_table<GnDiscoParams>(
-            {GN_PARAM(GnDiscoParams, size, real, 0.05, 1.5, "m", "Width of each light: softer shadows.")}),
+            {GN_CHOICE(GnDiscoParams, light, light_sentence, "rectangle", "spot"),
+             GN_PARAM(GnDiscoParams, size, real, 0.05, 1.5, "m", "Width of each light: softer shadows.")}),
         make};
     return row;
 }

@@ -12,7 +12,7 @@ struct GnGridParams {
     int objects = 25;
     int triangles = 100;
     int lights = 1;
-    float radius = 0;
+    float radius = 0.1F;
 };
 
 constexpr int most_triangles = 16'000'000;
@@ -26,8 +26,7 @@ Scene make(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
     builder.begin("plane (sheet)", builder.material("stone", {0.5F, 0.49F, 0.46F}));
-    const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(params.objects))));
-    const float extent = 1.5F * static_cast<float>(columns) + 1;
+    const float extent = 1.5F * static_cast<float>(raster_columns(params.objects)) + 1;
     builder.sheet({-extent, 0, extent}, {2 * extent, 0, 0}, {0, 0, -2 * extent});
 
     // A torus of 2k by k quads has 4 k^2 triangles: k = 5 and k = 20 make the 100 and 1600 of the measurements.
@@ -35,13 +34,12 @@ Scene make(const ParamBlock& block) {
     const std::array paints{builder.material("clay", {0.55F, 0.30F, 0.18F}, 0.5F),
                             builder.material("glaze", {0.12F, 0.32F, 0.36F}, 0.4F)};
     for (int i = 0; i < params.objects; ++i) {
-        const float x = static_cast<float>(i % columns) - 0.5F * static_cast<float>(columns - 1);
-        const float z = static_cast<float>(i / columns) - 0.5F * static_cast<float>(columns - 1);
+        const vec2 cell = raster_cell(i, params.objects);
         const float turn = 2.4F * static_cast<float>(i);
         builder.begin(fmt::format("object {}", i), paints[static_cast<std::size_t>(i) % 2]);
-        builder.place(
-            glm::rotate(glm::rotate(glm::translate(mat4(1), vec3(2.5F * x, 0.75F, 2.5F * z)), turn, vec3(0, 1, 0)),
-                        1.1F, vec3(1, 0, 0)));
+        builder.place(glm::rotate(
+            glm::rotate(glm::translate(mat4(1), vec3(2.5F * cell.x, 0.75F, 2.5F * cell.y)), turn, vec3(0, 1, 0)), 1.1F,
+            vec3(1, 0, 0)));
         builder.ring(0.55F, 0, 0.2F, 2 * k, k);
     }
     builder.finish();

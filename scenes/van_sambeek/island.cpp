@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
-// The scene "island" of section 4.1.2: an island in the sea under one light so far away that no penumbra shows.
+// The scene "island" of section 4.1.2: an island in the sea under one light so far away that no penumbra shows: a sun, or a
+// spot as all his lights are.
 #include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/noise.h"
 #include "scenes/registry.h"
+#include "scenes/textures.h"
 
 namespace gn::scenes {
 namespace {
 
 struct GnIslandParams {
-    float radius = 0;
+    int light = 0;
+    float radius = 0.15F;
 };
 
 constexpr int cells = 96;
@@ -107,7 +110,9 @@ void add_palm(MeshBuilder& builder, int bark, int green, vec3 foot, Dice& dice) 
 Scene make(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
-    builder.begin("sea (sheet)", builder.material("sea", {0.05F, 0.20F, 0.26F}, 0.15F));
+    const int sea =
+        builder.material("sea", vec3(1), 0.15F, 0, builder.texture(water_texture("sea", {0.05F, 0.20F, 0.26F}, 67)));
+    builder.begin("sea (sheet)", sea, 1.0F / 16);
     builder.sheet({-400, 0, 400}, {800, 0, 0}, {0, 0, -800});
     builder.begin("island", builder.material("sand and scrub", {0.50F, 0.44F, 0.27F}, 0.9F));
     add_terrain(builder);
@@ -124,8 +129,14 @@ Scene make(const ParamBlock& block) {
     }
     builder.finish();
 
-    scene.lights.push_back(
-        directional_light("sun", {-0.62F, 0.60F, 0.35F}, 60000, block.as<GnIslandParams>().radius, {1, 0.94F, 0.84F}));
+    const auto params = block.as<GnIslandParams>();
+    const vec3 to_light = glm::normalize(vec3(-0.62F, 0.60F, 0.35F));
+    const vec3 color(1, 0.94F, 0.84F);
+    const float lux = 60000, distance = 600;
+    scene.lights.push_back(params.light == 0 ? directional_light("sun", to_light, lux, params.radius, color)
+                                             : spot_light("far spot", distance * to_light, vec3(0),
+                                                          distance * std::tan(glm::radians(params.radius)),
+                                                          lux * distance * distance, 40, color));
     scene.cameras.push_back(look_at("main", {9, 9, 27}, {0, 1.6F, 1}, 42, 0.1F, 900));
     return scene;
 }
@@ -135,8 +146,11 @@ Scene make(const ParamBlock& block) {
 const Generator& island() {
     static const Generator row{
         "island", "An island with palms in the sea under a far light: hard shadows on rough ground.",
-        param_table<GnIslandParams>({GN_PARAM(GnIslandParams, radius, real, 0, 5, "degrees",
-                                              "Angular radius of the sun: 0 is a hard shadow.")}),
+        param_table<GnIslandParams>(
+            {GN_CHOICE(GnIslandParams, light, "A sun, or a spot 600 m away that is as bright and as wide.", "sun",
+                       "spot"),
+             GN_PARAM(GnIslandParams, radius, real, 0, 5, "degrees",
+                      "Angular radius of the light as seen from the island: 0 is a hard shadow.")}),
         make};
     return row;
 }

@@ -2,15 +2,16 @@
 // Based on: van Sambeek. Real-time Shadow Generation for 3D Simulations Using Modern Hardware. Twente 2007. [Sam07]
 // The two scenes "warehouse" of section 4.1.2: the same hall from inside, under one near area light, and from outside,
 // with camera and light far away and close together.
-#include "scenes/analytic.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/noise.h"
 #include "scenes/registry.h"
+#include "scenes/van_sambeek/lights.h"
 
 namespace gn::scenes {
 namespace {
 
 struct GnWarehouseParams {
+    int light = as_rectangle;
     float size = 1.2F;
 };
 
@@ -117,27 +118,28 @@ Scene build() {
 
 Scene make_inside(const ParamBlock& block) {
     Scene scene = build();
-    const float size = block.as<GnWarehouseParams>().size;
+    const auto params = block.as<GnWarehouseParams>();
     const vec3 at(0.9F, 5.2F, 1.0F);
     scene.lights.push_back(
-        rectangle_light("lamp", at, {0.9F, 0, 0.9F}, vec2(0.5F * size), 14000 / (size * size), {1, 0.94F, 0.82F}));
+        sized_light(params.light, "lamp", at, {0.9F, 0, 0.9F}, params.size, 14000, 53, {1, 0.94F, 0.82F}));
     scene.cameras.push_back(look_at("main", {2.2F, 2.9F, 12.6F}, {0.1F, 1.5F, 0}, 55, 0.1F, 200));
     return scene;
 }
 
 Scene make_outside(const ParamBlock& block) {
     Scene scene = build();
-    const float size = block.as<GnWarehouseParams>().size;
+    const auto params = block.as<GnWarehouseParams>();
     const vec3 at(44, 42, 52);
-    scene.lights.push_back(rectangle_light("flood light", at, {0, 2, 0}, vec2(0.5F * size),
-                                           3000 * glm::dot(at, at) / (size * size), {1, 0.95F, 0.88F}));
+    scene.lights.push_back(sized_light(params.light, "flood light", at, {0, 2, 0}, params.size, 3000 * glm::dot(at, at),
+                                       30, {1, 0.95F, 0.88F}));
     scene.cameras.push_back(look_at("main", {36, 28, 52}, {0, 2, 0}, 26, 0.1F, 400));
     return scene;
 }
 
 ParamTable params() {
     return param_table<GnWarehouseParams>(
-        {GN_PARAM(GnWarehouseParams, size, real, 0.05, 4, "m", "Width of the light: softer shadows.")});
+        {GN_CHOICE(GnWarehouseParams, light, light_sentence, "rectangle", "spot"),
+         GN_PARAM(GnWarehouseParams, size, real, 0.05, 4, "m", "Width of the light: softer shadows.")});
 }
 
 }  // namespace
