@@ -31,7 +31,12 @@ struct SceneGpu {
     Buffer indices;                   ///< uvec3 per triangle
     std::vector<Texture2D> textures;  ///< as Scene::textures, RGBA8 sRGB, mipmapped; index 0 of an empty scene is white
     Texture2D white;
+    /// What is drawn: no two uploads have the same. Whoever writes into the buffers above takes a new one from next_version;
+    /// what frames keep of an older version is drawn anew.
+    std::uint64_t version = 0;
 };
+/// A version that no geometry has had in this process.
+std::uint64_t next_version();
 SceneGpu upload_scene(Device& device, const Scene& scene);
 
 /// The scene's buffers in one frame's graph.
@@ -39,6 +44,7 @@ struct SceneHandles {
     BufferHandle positions, normals, uvs, indices;
     std::vector<TextureHandle> textures;
     TextureHandle white;
+    std::uint64_t version = 0;  ///< SceneGpu::version
 };
 
 /// The camera's constants for shaders (shadow/view/view.glsl has the same struct).

@@ -2,6 +2,7 @@
 // The scene on the GPU: four buffers and the base colour textures.
 #include "shadow/frame.h"
 
+#include <atomic>
 #include <bit>
 
 namespace gn {
@@ -27,10 +28,16 @@ Texture2D upload_rgba8(Device& device, const std::string& name, const Image8& im
 
 }  // namespace
 
+std::uint64_t next_version() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 SceneGpu upload_scene(Device& device, const Scene& scene) {
     constexpr VkBufferUsageFlags vertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     SceneGpu gpu;
     gpu.scene = &scene;
+    gpu.version = next_version();
     gpu.positions = upload(device, "positions", scene.positions_ws, vertex);
     gpu.normals = upload(device, "normals", scene.normals_ws, vertex);
     gpu.uvs = upload(device, "uvs", scene.uvs, vertex);
@@ -52,6 +59,7 @@ SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
         handles.textures.push_back(graph.import(texture));
     }
     handles.white = graph.import(scene.white);
+    handles.version = scene.version;
     return handles;
 }
 

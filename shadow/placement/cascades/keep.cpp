@@ -21,8 +21,7 @@ struct Kept {
 };
 struct KeptState {
     std::vector<Kept> cascades;
-    const Scene* scene = nullptr;
-    std::size_t triangles = 0;
+    std::uint64_t version = 0;  ///< of the geometry that was drawn
 };
 
 /// A rectangle of grid texels, end exclusive.
@@ -95,9 +94,8 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
     kept.name = fmt::format("light {} {} {} {} {}", input.light_index, recipe.name, recipe.overrides,
                             recipe.map != nullptr ? recipe.map->id : "", recipe.casters);
     auto& state = input.history->value<KeptState>("cascades of " + kept.name);
-    if (state.scene != &input.scene || state.triangles != input.scene.triangles.size() ||
-        state.cascades.size() != windows.size()) {
-        state = {std::vector<Kept>(windows.size()), &input.scene, input.scene.triangles.size()};
+    if (state.version != input.handles.version || state.cascades.size() != windows.size()) {
+        state = {std::vector<Kept>(windows.size()), input.handles.version};
     }
     for (std::size_t i = 0; i < windows.size(); ++i) {
         const Grid& grid = windows[i].grid;
