@@ -52,7 +52,7 @@ Result<Session> Session::create(const std::string& pick) noexcept {
 
 Result<Done> Session::set_scene(Scene scene) noexcept {
     return guarded<Done>([&] {
-        finish_scene(scene);
+        finish_host_scene(scene);
         state_->uploaded.reset();
         state_->scene = std::move(scene);
         state_->uploaded = upload_scene(*state_->device, *state_->scene);

@@ -18,9 +18,9 @@
 
 namespace gn::host {
 
-/// A value, or one sentence why there is none.
+/// A value, or one sentence why there is none. Whoever drops one misses that sentence.
 template <class T>
-class Result {
+class [[nodiscard]] Result {
   public:
     Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): returned by value
     static Result failure(std::string why) {
@@ -54,9 +54,11 @@ class Session {
     Session& operator=(Session&&) noexcept;
     ~Session();
 
-    /// Takes the scene (world space, metres; completed as finish_scene does) and uploads it.
+    /// Takes the scene (world space, metres) and uploads it: bounds and missing normals are made, what is no triangle is
+    /// dropped with a note. Nothing is moved, no light and no camera is made up: without lights there are no images.
     Result<Done> set_scene(Scene scene) noexcept;
-    /// The same from a file or a built-in name.
+    /// The same from a file or a built-in name, completed as a scene of a file is: moved where it lies far from zero
+    /// (Scene::origin says from where), with a camera and a sun where it has none.
     Result<Done> load_scene(const std::string& name_or_path) noexcept;
     /// The scene as it was completed; null before set_scene.
     [[nodiscard]] const Scene* scene() const noexcept;

@@ -156,6 +156,18 @@ void recentre(Scene& scene) {
 
 }  // namespace
 
+void finish_host_scene(Scene& scene) {
+    check_structure(scene);
+    drop_bad_triangles(scene);
+    clean_vertices(scene);
+    complete_normals(scene);
+    scene.bounds_ws = Box{};
+    for (const Object& object : scene.objects) {
+        scene.bounds_ws.grow(object.bounds_ws);
+    }
+    complete_lights(scene);
+}
+
 void finish_scene(Scene& scene) {
     // Geometry that can be trusted.
     check_structure(scene);
@@ -175,6 +187,7 @@ void finish_scene(Scene& scene) {
                              scene.origin.x, scene.origin.y, scene.origin.z));
     }
     complete_cameras(scene);
+    add_default_sun(scene);
     complete_lights(scene);
     complete_casting(scene);
 }

@@ -105,14 +105,17 @@ Light default_sun(const Camera& camera) {
 
 }  // namespace
 
+void add_default_sun(Scene& scene) {
+    if (scene.lights.empty()) {
+        scene.lights.push_back(default_sun(scene.cameras.front()));
+    }
+}
+
 void complete_lights(Scene& scene) {
     if (scene.lights.size() > max_lights) {
         add_note(scene.notes, fmt::format("{} lights were dropped; the first {} are kept.",
                                           scene.lights.size() - max_lights, max_lights));
         scene.lights.resize(max_lights);
-    }
-    if (scene.lights.empty()) {
-        scene.lights.push_back(default_sun(scene.cameras.front()));
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         Light& light = scene.lights[i];

@@ -82,6 +82,8 @@ Model load_model(const std::filesystem::path& path, bool toml_allowed);
 // The steps of finish_scene.
 void drop_bad_triangles(Scene& scene);
 void complete_normals(Scene& scene);
+/// Where there is no light; asks for the first camera.
+void add_default_sun(Scene& scene);
 void complete_lights(Scene& scene);
 void complete_cameras(Scene& scene);
 /// Glass, and the bulbs that lamps spare.

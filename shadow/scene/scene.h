@@ -107,6 +107,9 @@ Scene load_scene(const std::string& name_or_path);
 /// non-finite triangles dropped with a note, default camera and sun where none is given, lights capped.
 void finish_scene(Scene& scene);
 
+/// Completes what a host hands over: the same, but nothing is moved and no camera or light is made up.
+void finish_host_scene(Scene& scene);
+
 struct BuiltinScene {
     std::string name, sentence, parameters;  ///< parameters: "angle=60 (0 to 89 degrees)" or ""
 };
