@@ -11,6 +11,38 @@ namespace {
 
 class Devices : public Rendered {};
 
+/// A device made by hand, as a host makes its own.
+class HostMade {
+  public:
+    HostMade(Device& like, const VkPhysicalDeviceFeatures2& features) : like_(like) {
+        const float priority = 1;
+        const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                            .queueFamilyIndex = like.queue_family(),
+                                            .queueCount = 1,
+                                            .pQueuePriorities = &priority};
+        const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                      .pNext = &features,
+                                      .queueCreateInfoCount = 1,
+                                      .pQueueCreateInfos = &queue,
+                                      .enabledExtensionCount = static_cast<std::uint32_t>(extensions_.size()),
+                                      .ppEnabledExtensionNames = extensions_.data()};
+        GN_VK(vkCreateDevice(like.physical(), &info, nullptr, &device_));
+        vkGetDeviceQueue(device_, like.queue_family(), 0, &queue_);
+    }
+    ~HostMade() { vkDestroyDevice(device_, nullptr); }
+    HostMade(const HostMade&) = delete;
+    HostMade& operator=(const HostMade&) = delete;
+    [[nodiscard]] AdoptedDevice lent() const {
+        return {like_.instance(), like_.physical(), device_, queue_, like_.queue_family()};
+    }
+
+  private:
+    Device& like_;
+    std::vector<const char*> extensions_{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+};
+
 TEST_F(Devices, TheChosenOneSaysWhy) {
     EXPECT_FALSE(device.info().name.empty());
     EXPECT_FALSE(device.info().driver.empty());
@@ -61,6 +93,20 @@ TEST_F(Devices, AHostsDeviceRunsAGraph) {
         "fill", [&](PassBuilder& pass) { pass.copy_to(out); }, [=](Recorder& r) { r.fill(out, 0x01020304U); });
     graph.execute();
     EXPECT_EQ(values_of<std::uint32_t>(graph.download(out)), std::vector<std::uint32_t>(16, 0x01020304U));
+}
+
+TEST_F(Devices, AHostsDeviceWithoutARequiredFeatureIsRefusedByItsName) {
+    // The hardware has depth clamping and the rest; this host did not turn it on.
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    v13.dynamicRendering = v13.synchronization2 = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v13};
+    features.features.geometryShader = VK_TRUE;
+    const HostMade host(device, features);
+    const std::string error = error_of([&] { Device::adopt(host.lent()); });
+    EXPECT_NE(error.find("depthClamp"), std::string::npos) << error;
+    EXPECT_NE(error.find("scalarBlockLayout"), std::string::npos) << error;
+    EXPECT_EQ(error.find("synchronization2"), std::string::npos) << error;
+    EXPECT_EQ(error.find("geometryShader"), std::string::npos) << error;
 }
 
 TEST_F(Devices, PipelinesAreMadeOnce) {
