@@ -43,10 +43,19 @@ class VulkanDevice final : public Device {
         if (!candidate_.missing.empty()) {
             fail("the host's device '{}' lacks {}", candidate_.info.name, candidate_.missing);
         }
+        keep_enabled(candidate_, host);
+        if (!candidate_.missing.empty()) {
+            fail(
+                "the host's device '{}' was created without {}; enable that in vkCreateDevice, and say so in "
+                "AdoptedDevice::features and extensions",
+                candidate_.info.name, candidate_.missing);
+        }
         for (const char* call : {"vkCmdPushDescriptorSetKHR", "vkCmdBeginRendering", "vkCmdPipelineBarrier2"}) {
             if (vkGetDeviceProcAddr(host.device, call) == nullptr) {
-                fail("the host's device '{}' was created without {}; enable Vulkan 1.3 and VK_KHR_push_descriptor",
-                     candidate_.info.name, call);
+                fail(
+                    "the host's device '{}' was created without {}, whatever AdoptedDevice says; enable Vulkan 1.3 and "
+                    "VK_KHR_push_descriptor",
+                    candidate_.info.name, call);
             }
         }
         candidate_.info.why = "the host renderer lent it";
@@ -55,7 +64,6 @@ class VulkanDevice final : public Device {
         queue_ = host.queue;
         queue_family_ = host.queue_family;
         adopted_ = true;
-        keep_what_host_enabled(host);
         create_parts();
     }
 
@@ -142,16 +150,6 @@ class VulkanDevice final : public Device {
         vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     }
 
-    /// Vulkan cannot be asked what a device was created with, so only the host's word counts for what must be enabled.
-    void keep_what_host_enabled(const AdoptedDevice& host) {
-        for (const Feature feature :
-             {Feature::anisotropy, Feature::layer_from_vertex_shader, Feature::conservative_rasterization,
-              Feature::fragment_interlock, Feature::ray_query, Feature::shader_float64, Feature::atomic_float_add}) {
-            bool& present = candidate_.features[static_cast<std::size_t>(feature)];
-            present = present && std::find(host.enabled.begin(), host.enabled.end(), feature) != host.enabled.end();
-        }
-    }
-
     void create_parts() {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
@@ -197,9 +195,10 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host) {
     for (const auto& [given, what] : {std::pair{host.instance != VK_NULL_HANDLE, "instance"},
                                       {host.physical != VK_NULL_HANDLE, "physical device"},
                                       {host.device != VK_NULL_HANDLE, "device"},
-                                      {host.queue != VK_NULL_HANDLE, "queue"}}) {
+                                      {host.queue != VK_NULL_HANDLE, "queue"},
+                                      {host.features != nullptr, "chain of the features that it enabled"}}) {
         if (!given) {
-            fail("the host lends no {}; instance, physical device, device and queue are needed", what);
+            fail("the host lends no {}; instance, physical device, device, queue and features are needed", what);
         }
     }
     return std::make_unique<VulkanDevice>(host);

@@ -61,7 +61,10 @@ struct AdoptedDevice {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;
-    std::vector<Feature> enabled{};  ///< optional features that the host enabled; Vulkan cannot be asked
+    /// What the device was created with, which Vulkan cannot be asked: the chain of features given to vkCreateDevice (with
+    /// pEnabledFeatures in its first struct where those were used) and the names of the extensions.
+    const VkPhysicalDeviceFeatures2* features = nullptr;
+    std::vector<const char*> extensions{};
 };
 
 /// How many objects were made since the device was; a steady frame makes none.
@@ -74,8 +77,7 @@ struct Counters {
 class Device {
   public:
     static std::unique_ptr<Device> create(const DeviceOptions& options = {});
-    /// Throws Error when the host's device lacks what Gnomon needs (dynamic rendering, synchronization2, push
-    /// descriptors, scalar block layout).
+    /// Throws Error when the host's device lacks, or was created without, what Gnomon needs; it names all of that.
     static std::unique_ptr<Device> adopt(const AdoptedDevice& host);
     virtual ~Device() = default;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/device.h"
 
+#include "gpu/features.h"
 #include "gpu/pipeline_cache.h"
 #include "gpu/test_device.h"
 
@@ -14,7 +15,7 @@ class Devices : public Rendered {};
 /// A device made by hand, as a host makes its own.
 class HostMade {
   public:
-    HostMade(Device& like, const VkPhysicalDeviceFeatures2& features) : like_(like) {
+    HostMade(Device& like, const VkPhysicalDeviceFeatures2& features) : like_(like), features_(features) {
         const float priority = 1;
         const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                             .queueFamilyIndex = like.queue_family(),
@@ -33,11 +34,12 @@ class HostMade {
     HostMade(const HostMade&) = delete;
     HostMade& operator=(const HostMade&) = delete;
     [[nodiscard]] AdoptedDevice lent() const {
-        return {like_.instance(), like_.physical(), device_, queue_, like_.queue_family()};
+        return {like_.instance(), like_.physical(), device_, queue_, like_.queue_family(), &features_, extensions_};
     }
 
   private:
     Device& like_;
+    const VkPhysicalDeviceFeatures2& features_;
     std::vector<const char*> extensions_{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
@@ -78,13 +80,15 @@ TEST_F(Devices, TheDoctorNamesTheDeviceAndEveryFeature) {
 }
 
 TEST_F(Devices, AHostsDeviceRunsAGraph) {
-    const auto adopted = Device::adopt({device.instance(),
-                                        device.physical(),
-                                        device.vk(),
-                                        device.queue(),
-                                        device.queue_family(),
-                                        {Feature::anisotropy}});
+    // What this device was made with, but for one feature that the host does not speak of.
+    FeatureChain chain;
+    std::vector<const char*> extensions;
+    enable(examine(device.physical()), chain, extensions);
+    chain.core.features.shaderFloat64 = VK_FALSE;
+    const auto adopted = Device::adopt({device.instance(), device.physical(), device.vk(), device.queue(),
+                                        device.queue_family(), &chain.core, extensions});
     EXPECT_FALSE(adopted->has(Feature::shader_float64)) << "the host did not say that it enabled it";
+    EXPECT_EQ(adopted->has(Feature::layer_from_vertex_shader), device.has(Feature::layer_from_vertex_shader));
     EXPECT_EQ(adopted->has(Feature::anisotropy), device.has(Feature::anisotropy));
     FrameGraph graph(*adopted);
     const BufferHandle out = graph.create(BufferDesc{.name = "out", .bytes = 64});
@@ -107,6 +111,30 @@ TEST_F(Devices, AHostsDeviceWithoutARequiredFeatureIsRefusedByItsName) {
     EXPECT_NE(error.find("scalarBlockLayout"), std::string::npos) << error;
     EXPECT_EQ(error.find("synchronization2"), std::string::npos) << error;
     EXPECT_EQ(error.find("geometryShader"), std::string::npos) << error;
+}
+
+TEST_F(Devices, AHostMayNameFeaturesOneByOneButMustNameThem) {
+    FeatureChain chain;
+    std::vector<const char*> extensions;
+    enable(examine(device.physical()), chain, extensions);
+
+    // One struct a feature instead of one a version.
+    VkPhysicalDeviceScalarBlockLayoutFeatures scalar{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
+    VkPhysicalDeviceSynchronization2Features barriers{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+                                                      &scalar};
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+                                                       &barriers};
+    scalar.scalarBlockLayout = barriers.synchronization2 = rendering.dynamicRendering = VK_TRUE;
+    const VkPhysicalDeviceFeatures2 one_by_one{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &rendering,
+                                               chain.core.features};
+    AdoptedDevice host{device.instance(),     device.physical(), device.vk(), device.queue(),
+                       device.queue_family(), &one_by_one,       extensions};
+    EXPECT_EQ(error_of([&] { EXPECT_FALSE(Device::adopt(host)->has(Feature::layer_from_vertex_shader)); }), "");
+
+    host.extensions.clear();
+    EXPECT_NE(error_of([&] { Device::adopt(host); }).find("VK_KHR_push_descriptor"), std::string::npos);
+    host.features = nullptr;
+    EXPECT_NE(error_of([&] { Device::adopt(host); }).find("features"), std::string::npos);
 }
 
 TEST_F(Devices, PipelinesAreMadeOnce) {

@@ -273,6 +273,106 @@ std::size_t choose(std::vector<Candidate>& candidates, const std::string& pick) 
     return best;
 }
 
+namespace {
+
+template <class Struct>
+Struct copy_of(const VkBaseInStructure* given) {
+    Struct copy{};
+    std::memcpy(&copy, given, sizeof(Struct));
+    copy.pNext = nullptr;
+    return copy;
+}
+
+/// Reads a host's chain, whose structs may be those of a whole version or of one extension.
+void read_chain(const VkPhysicalDeviceFeatures2& host, FeatureChain& chain) {
+    chain.core.features = host.features;
+    for (const auto* s = static_cast<const VkBaseInStructure*>(host.pNext); s != nullptr; s = s->pNext) {
+        switch (s->sType) {
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES:
+                chain.v11 = copy_of<VkPhysicalDeviceVulkan11Features>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
+                chain.v12 = copy_of<VkPhysicalDeviceVulkan12Features>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
+                chain.v13 = copy_of<VkPhysicalDeviceVulkan13Features>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES:
+                chain.v13.dynamicRendering = copy_of<VkPhysicalDeviceDynamicRenderingFeatures>(s).dynamicRendering;
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
+                chain.v13.synchronization2 = copy_of<VkPhysicalDeviceSynchronization2Features>(s).synchronization2;
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
+                chain.v12.scalarBlockLayout = copy_of<VkPhysicalDeviceScalarBlockLayoutFeatures>(s).scalarBlockLayout;
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES:
+                chain.v12.bufferDeviceAddress =
+                    copy_of<VkPhysicalDeviceBufferDeviceAddressFeatures>(s).bufferDeviceAddress;
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_INTERLOCK_FEATURES_EXT:
+                chain.interlock = copy_of<VkPhysicalDeviceFragmentShaderInterlockFeaturesEXT>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_FLOAT_FEATURES_EXT:
+                chain.atomic_float = copy_of<VkPhysicalDeviceShaderAtomicFloatFeaturesEXT>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR:
+                chain.acceleration = copy_of<VkPhysicalDeviceAccelerationStructureFeaturesKHR>(s);
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR:
+                chain.ray_query = copy_of<VkPhysicalDeviceRayQueryFeaturesKHR>(s);
+                break;
+            default: break;  // asks for nothing that is used here
+        }
+    }
+}
+
+}  // namespace
+
+void keep_enabled(Candidate& candidate, const AdoptedDevice& host) {
+    FeatureChain chain;
+    read_chain(*host.features, chain);
+    candidate.extensions.assign(host.extensions.begin(), host.extensions.end());
+
+    // What must be there.
+    const auto lacks = [&](const std::string& what) {
+        candidate.missing += (candidate.missing.empty() ? "" : ", ") + what;
+    };
+    for (const Required& required : required_features) {
+        if (required.at(chain) == VK_FALSE) {
+            lacks(required.name);
+        }
+    }
+    if (!candidate.has_extension(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
+        lacks(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    }
+
+    // What may be: present and enabled. Formats and limits need no enabling.
+    const auto only_if = [&](Feature feature, bool enabled) {
+        bool& present = candidate.features[static_cast<std::size_t>(feature)];
+        present = present && enabled;
+    };
+    const auto on = [&](const char* extension, VkBool32 feature) {
+        return feature != VK_FALSE && candidate.has_extension(extension);
+    };
+    only_if(Feature::anisotropy, chain.core.features.samplerAnisotropy != 0);
+    only_if(Feature::shader_float64, chain.core.features.shaderFloat64 != 0);
+    only_if(
+        Feature::layer_from_vertex_shader,
+        chain.v12.shaderOutputLayer != 0 || candidate.has_extension(VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME));
+    only_if(Feature::conservative_rasterization,
+            candidate.has_extension(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME));
+    only_if(Feature::fragment_interlock,
+            on(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME, chain.interlock.fragmentShaderPixelInterlock));
+    only_if(Feature::atomic_float_add,
+            on(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, chain.atomic_float.shaderBufferFloat32AtomicAdd) &&
+                chain.atomic_float.shaderImageFloat32AtomicAdd != 0);
+    only_if(Feature::ray_query,
+            on(VK_KHR_RAY_QUERY_EXTENSION_NAME, chain.ray_query.rayQuery) &&
+                on(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, chain.acceleration.accelerationStructure) &&
+                chain.v12.bufferDeviceAddress != 0);
+}
+
 void enable(const Candidate& candidate, FeatureChain& chain, std::vector<const char*>& extensions) {
     // Ask again, then keep only what is used.
     FeatureChain present;

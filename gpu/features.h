@@ -46,6 +46,9 @@ std::vector<Candidate> examine_all(VkInstance instance);
 /// The index of the device to use, with info.why filled in. Throws Error when none is usable or matches `pick`.
 std::size_t choose(std::vector<Candidate>& candidates, const std::string& pick);
 
+/// Leaves of a host's device what was enabled when it was created. What Gnomon requires and is not enabled becomes `missing`.
+void keep_enabled(Candidate& candidate, const AdoptedDevice& host);
+
 /// Turns on, in an empty chain, the required features and the optional ones that the candidate has.
 void enable(const Candidate& candidate, FeatureChain& chain, std::vector<const char*>& extensions);
 

@@ -45,16 +45,19 @@ void demand(bool holds, const std::string& why) {
 void render(const char* output) {
     HostDevice host;
 
-    // Lend the device, hand over the scene, name a recipe; each call gives a value or a sentence.
+    // Lend the device and say what was enabled in it, hand over the scene, name a recipe; each call gives a value or a
+    // sentence.
     auto session = gn::host::Session::adopt({.instance = host.instance,
                                              .physical = host.physical,
                                              .device = host.device,
                                              .queue = host.queue,
-                                             .queue_family = host.queue_family});
+                                             .queue_family = host.queue_family,
+                                             .features = &host.features,
+                                             .extensions = {host.extensions.begin(), host.extensions.end()}});
     demand(session.ok(), session.why());
     const auto taken = session.value().set_scene(make_scene());
     demand(taken.ok(), taken.why());
-    const gn::Camera& camera = session.value().scene()->cameras.front();
+    const gn::Camera& camera = session.value().scene()->cameras.front();  // stays where it is, as everything does
     const auto rendered =
         session.value().render(camera, "pcf,resolution=2048", {.width = 320, .height = 240, .picture = false});
     demand(rendered.ok(), rendered.why());
