@@ -80,9 +80,9 @@ Scene make(const ParamBlock& block) {
 
     // 1000 lux from each light at the height of the roof, whatever the size.
     scene.lights.push_back(sized_light(params.light, "front", {2.2F, 4.0F, 1.6F}, {0.2F, 0.5F, 0}, params.size, 9000,
-                                       53, {1, 0.93F, 0.82F}));
+                                       54, {1, 0.93F, 0.82F}));
     scene.lights.push_back(sized_light(params.light, "rear", {-2.6F, 3.8F, -0.8F}, {-0.2F, 0.5F, 0}, params.size, 9000,
-                                       53, {0.82F, 0.9F, 1}));
+                                       54, {0.82F, 0.9F, 1}));
     scene.cameras.push_back(look_at("main", {3.9F, 2.6F, 4.6F}, {0.1F, 0.55F, 0.1F}, 40, 0.1F, 80));
     return scene;
 }
