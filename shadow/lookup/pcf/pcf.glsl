@@ -81,7 +81,7 @@ GN_FN GnPcfSpan gn_pcf_span(int kernel, int size, float pixel, float t, float fi
     float high = t + 0.5f * span.size;
     if (gn_pcf_snapped(kernel)) {
         // Whole texels, as many as hold the footprint.
-        int texels = int(min(ceil(span.size), end - first));
+        int texels = int(min(ceil(span.size), 2.0f * (end - first) + 2.0f));
         low = float(gn_pcf_first(kernel, texels, t));
         high = low + float(texels);
     } else if (kernel == GN_PCF_GAUSSIAN) {
@@ -165,6 +165,11 @@ float gn_pcf_axis_weight(GnPcfParams params, float t, int i) {
                                             : gn_pcf_weight(params.kernel, params.size, t, i);
 }
 
+// The four texels of a gather by the weights of their columns and rows.
+float gn_pcf_weighed(vec4 lit, vec2 wx, vec2 wy) {
+    return dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
+}
+
 // Gather the footprint in blocks of 2 x 2 texels and weigh each comparison by its row and column.
 float gn_pcf_grid(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
     vec2 t = projected.uv_ts / projected.texel_ts;
@@ -179,7 +184,7 @@ float gn_pcf_grid(GnReceiver receiver, GnProjected projected, GnBias bias, sampl
             // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
             vec2 corner_ts = first_ts + vec2(x, y) * projected.texel_ts;
             vec4 lit = gn_pcf_gather(receiver, projected, bias, map, corner_ts);
-            sum += dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
+            sum += gn_pcf_weighed(lit, wx, wy);
             total += (wx.x + wx.y) * (wy.x + wy.y);
         }
     }
@@ -206,7 +211,7 @@ float gn_pcf_grid_over_pixel(GnReceiver receiver, GnProjected projected, GnBias 
         for (float x = floor(across.low); x < across.high; x += 2.0) {
             vec2 wx = vec2(gn_pcf_span_weight(params.kernel, across, x), gn_pcf_span_weight(params.kernel, across, x + 1.0));
             vec4 lit = gn_pcf_gather(receiver, projected, bias, map, (vec2(x, y) + 1.0) * projected.texel_ts);
-            sum += dot(lit, vec4(wx.x, wx.y, wx.y, wx.x) * vec4(wy.y, wy.y, wy.x, wy.x));
+            sum += gn_pcf_weighed(lit, wx, wy);
             total += (wx.x + wx.y) * (wy.x + wy.y);
         }
     }
