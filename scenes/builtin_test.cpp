@@ -268,7 +268,8 @@ TEST(VanSambeek, SpotsHaveASizeAndAConeThatHoldsWhatStandsThere) {
             ASSERT_EQ(light.kind, uint(GN_LIGHT_SPOT)) << name;
             EXPECT_GT(light.radius, 0) << name;
             EXPECT_LT(light.cos_outer, light.cos_inner) << name;
-            EXPECT_GT(light.cos_outer, 0.5F) << name << ": the corners of a wider pyramid leave one map";
+            // The corners of a pyramid around a cone of 69 degrees lie 75 degrees off its axis, where one map gives up.
+            EXPECT_GT(light.cos_outer, 0.36F) << name;
             if (std::string_view(name) == "warehouse-inside") {
                 continue;  // its lamp hangs in the middle of what it lights
             }

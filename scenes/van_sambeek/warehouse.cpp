@@ -121,7 +121,7 @@ Scene make_inside(const ParamBlock& block) {
     const auto params = block.as<GnWarehouseParams>();
     const vec3 at(0.9F, 5.2F, 1.0F);
     scene.lights.push_back(
-        sized_light(params.light, "lamp", at, {0.9F, 0, 0.9F}, params.size, 14000, 53, {1, 0.94F, 0.82F}));
+        sized_light(params.light, "lamp", at, {0.9F, 0, 0.9F}, params.size, 14000, 65, {1, 0.94F, 0.82F}));
     scene.cameras.push_back(look_at("main", {2.2F, 2.9F, 12.6F}, {0.1F, 1.5F, 0}, 55, 0.1F, 200));
     return scene;
 }
