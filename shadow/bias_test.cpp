@@ -189,6 +189,18 @@ TEST(BiasLaws, WithThePlaneTheConeOpensToWhereThePlaneFallsAway) {
     }
 }
 
+TEST(BiasLaws, AFootprintOfThePixelReachesHalfOfItAcrossTheRays) {
+    glsl::GnReceiver receiver{};
+    receiver.ddx_ws = vec3(0.2F, 0, 0);
+    receiver.ddy_ws = vec3(0, 0, -0.4F);
+    GnBias bias = no_bias;
+    EXPECT_EQ(glsl::gn_pixel_reach(receiver, vec3(0, 1, 0), bias), 0);
+    bias.reach_pixels = 1;
+    EXPECT_NEAR(glsl::gn_pixel_reach(receiver, vec3(0, 1, 0), bias), 0.3, 1e-6);
+    // Along the rays nothing is covered.
+    EXPECT_NEAR(glsl::gn_pixel_reach(receiver, vec3(1, 0, 0), bias), 0.2, 1e-6);
+}
+
 TEST(BiasLaws, TexelsGrowWithTheKernelUnlessThePlaneIsFollowed) {
     const float texel_ws = 0.02F;
     GnBias bias = no_bias;
