@@ -166,6 +166,7 @@ void finish_host_scene(Scene& scene) {
         scene.bounds_ws.grow(object.bounds_ws);
     }
     complete_lights(scene);
+    complete_casting(scene);
 }
 
 void finish_scene(Scene& scene) {
