@@ -156,6 +156,22 @@ void recentre(Scene& scene) {
 
 }  // namespace
 
+void note_transparent(Scene& scene) {
+    std::vector<bool> worn(scene.materials.size(), false);
+    for (const Object& object : scene.objects) {
+        worn[static_cast<std::size_t>(object.material)] = true;
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        const bool masked_out = material.alpha_mode == AlphaMode::mask && material.base_color.a < material.alpha_cutoff;
+        const bool blended_out = material.alpha_mode == AlphaMode::blend && material.base_color.a <= 0.0F;
+        if (worn[i] && (masked_out || blended_out)) {
+            add_note(scene.notes,
+                     fmt::format("Material '{}' is wholly transparent: nothing of it casts a shadow.", material.name));
+        }
+    }
+}
+
 void finish_host_scene(Scene& scene) {
     check_structure(scene);
     drop_bad_triangles(scene);
@@ -176,6 +192,7 @@ void finish_scene(Scene& scene) {
     recentre(scene);
     clean_vertices(scene);
     complete_normals(scene);
+    note_transparent(scene);
 
     // What surrounds it.
     scene.bounds_ws = Box{};

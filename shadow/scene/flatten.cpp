@@ -16,6 +16,10 @@ void add_note(std::vector<std::string>& notes, std::string note) {
     }
 }
 
+void note_lost_mask(std::vector<std::string>& notes, const std::string& material) {
+    add_note(notes, fmt::format("Material '{}' has lost its mask: where it had holes it is solid.", material));
+}
+
 dvec3 choose_origin(dvec3 min, dvec3 max) {
     const dvec3 centre = 0.5 * (min + max);
     const double extent = glm::length(max - min);

@@ -17,26 +17,31 @@ class Builder {
         if (node.mesh < 0) {
             return;
         }
+        // The node's weights go before those of its mesh. [glTF 2.0, 3.7.2.2]
         const tinygltf::Mesh& data = at(file_.data.meshes, node.mesh, file_, "mesh");
         const std::string name = clean_text(!node.name.empty() ? node.name : data.name);
         const bool lit = node.extensions.count("KHR_lights_punctual") > 0;
         const Orders orders = read_orders(file_, node.extras, fmt::format("Node '{}'", name), lit);
+        const std::vector<double>& weights = node.weights.empty() ? data.weights : node.weights;
         if (joints != nullptr) {
             // A posed mesh is already in the world: the node's own matrix plays no part.
-            for (const std::size_t mesh : load(data, joints)) {
+            for (const std::size_t mesh : load(data, {joints, weights})) {
                 add_instance(mesh, dmat4(1.0), name, orders);
             }
             return;
         }
-        const auto known = meshes_.find(node.mesh);
-        const auto& parts = known != meshes_.end() ? known->second : meshes_[node.mesh] = load(data, nullptr);
-        for (const std::size_t mesh : parts) {
-            add_instance(mesh, ws_from_node, name, orders);
+        const std::pair key(node.mesh, weights);
+        const auto known = meshes_.find(key);
+        const auto& parts = known != meshes_.end() ? known->second : meshes_[key] = load(data, {nullptr, weights});
+        for (const dmat4& node_from_instance : instance_matrices(file_, node)) {
+            for (const std::size_t mesh : parts) {
+                add_instance(mesh, ws_from_node * node_from_instance, name, orders);
+            }
         }
     }
 
   private:
-    std::vector<std::size_t> load(const tinygltf::Mesh& data, const Joints* joints) {
+    std::vector<std::size_t> load(const tinygltf::Mesh& data, const Pose& pose) {
         std::vector<std::size_t> parts;
         const Orders of_mesh = read_orders(file_, data.extras, fmt::format("Mesh '{}'", clean_text(data.name)));
         for (const tinygltf::Primitive& primitive : data.primitives) {
@@ -47,7 +52,7 @@ class Builder {
             }
             const std::size_t material =
                 known ? static_cast<std::size_t>(primitive.material) : file_.data.materials.size();
-            Mesh mesh = load_primitive(file_, primitive, uv_uses_[material], joints);
+            Mesh mesh = load_primitive(file_, primitive, uv_uses_[material], pose);
             mesh.name = clean_text(data.name);
             mesh.material = static_cast<int>(material);
             note_missing_uvs(primitive, material);
@@ -95,7 +100,7 @@ class Builder {
     File& file_;
     Model& model_;
     std::vector<UvUse> uv_uses_;
-    std::map<int, std::vector<std::size_t>> meshes_;
+    std::map<std::pair<int, std::vector<double>>, std::vector<std::size_t>> meshes_;
     std::vector<Orders> orders_;  ///< of model_.meshes
     std::map<std::size_t, Orders> of_materials_;
     std::size_t triangles_ = 0;
@@ -123,9 +128,26 @@ std::optional<Joints> rest_joints(File& file, int skin_index, const std::vector<
 
 }  // namespace
 
+namespace {
+
+void note_left_out(File& file) {
+    if (file.data.scenes.size() > 1) {
+        add_note(file.notes, fmt::format("The file holds {} scenes; the {} is shown.", file.data.scenes.size(),
+                                         file.data.defaultScene > 0 ? "one that it names" : "first"));
+    }
+    if (!file.data.animations.empty()) {
+        add_note(file.notes,
+                 fmt::format("{} animation{} not played: everything stands as at rest.", file.data.animations.size(),
+                             file.data.animations.size() == 1 ? " is" : "s are"));
+    }
+}
+
+}  // namespace
+
 Model load_gltf(const std::filesystem::path& path) {
     File file = parse_file(path);
     Model model;
+    note_left_out(file);
     Builder builder(file, model);
 
     // Where every node stands; joints are nodes too.
@@ -138,10 +160,12 @@ Model load_gltf(const std::filesystem::path& path) {
     // What every node carries.
     for (const PlacedNode& node : nodes) {
         const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
-        const std::optional<Joints> joints = rest_joints(file, data.mesh >= 0 ? data.skin : -1, world);
-        builder.add(data, node.ws_from_node, joints ? &*joints : nullptr);
-        if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node)) {
-            model.lights.push_back(std::move(*light));
+        if (node.visible) {
+            const std::optional<Joints> joints = rest_joints(file, data.mesh >= 0 ? data.skin : -1, world);
+            builder.add(data, node.ws_from_node, joints ? &*joints : nullptr);
+            if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node)) {
+                model.lights.push_back(std::move(*light));
+            }
         }
         if (std::optional<PlacedCamera> camera = load_camera(file, data, node.ws_from_node)) {
             model.cameras.push_back(std::move(*camera));

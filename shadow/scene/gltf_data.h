@@ -9,6 +9,7 @@
 #include <tiny_gltf.h>
 
 #include <map>
+#include <span>
 
 namespace gn::gltf {
 
@@ -26,6 +27,9 @@ struct File {
 void check_json(std::string_view json, const std::string& shown);
 /// Reads a .gltf or .glb; external files only from its folder. Throws Error.
 File parse_file(const std::filesystem::path& path);
+
+/// One note for each kind of extension that the file uses and that is not understood.
+void note_extensions(File& file);
 
 /// Reads elements of an accessor as floats, whatever they are stored as; sparse ones included.
 class Elements {
@@ -89,13 +93,24 @@ std::optional<PlacedCamera> load_camera(File& file, const tinygltf::Node& node, 
 struct PlacedNode {
     int index = 0;
     dmat4 ws_from_node{1.0};
+    bool visible = true;  ///< by KHR_node_visibility, of this node and all above it
 };
 std::vector<PlacedNode> walk_nodes(const File& file);
 
 /// Joint matrices at rest, for meshes that hang on bones.
 using Joints = std::vector<dmat4>;
+/// What moves the vertices of a primitive before it is placed.
+struct Pose {
+    const Joints* joints = nullptr;
+    std::span<const double> weights;  ///< of the morph targets
+};
 /// The triangles of one primitive in object space (in world space with joints); empty when there are none.
-Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Joints* joints);
+Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose);
+/// Adds the weighted morph targets to a mesh whose vertex i is the file's used[i].
+void morph(File& file, const tinygltf::Primitive& primitive, std::span<const double> weights,
+           const std::vector<std::uint32_t>& used, Mesh& mesh);
+/// The matrices by which EXT_mesh_gpu_instancing shows a node's mesh, below the node's own; one identity without it.
+std::vector<dmat4> instance_matrices(File& file, const tinygltf::Node& node);
 
 /// file.data.<list>[index], or Error.
 template <class T>

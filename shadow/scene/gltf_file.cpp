@@ -89,16 +89,8 @@ void check_extensions(File& file) {
             fail("{}: the meshes are compressed with {}, which is not supported; save the file without compression",
                  file.shown, clean_text(name));
         }
-        static constexpr std::array known{"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
-                                          "KHR_materials_emissive_strength"};
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            add_note(file.notes, fmt::format("The extension {} is not supported and was left out.", clean_text(name)));
-        }
     }
-    const auto& used = file.data.extensionsUsed;
-    if (std::find(used.begin(), used.end(), "EXT_mesh_gpu_instancing") != used.end()) {
-        add_note(file.notes, "Instances by EXT_mesh_gpu_instancing are not supported: each mesh appears once.");
-    }
+    note_extensions(file);
 }
 
 }  // namespace

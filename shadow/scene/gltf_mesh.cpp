@@ -90,35 +90,49 @@ std::vector<std::uint32_t> compact(std::vector<uvec3>& triangles) {
     return used;
 }
 
-// The mean of the joints' matrices at rest, by the vertex's weights.
-std::optional<dmat4> rest_matrix(const Elements& joints, const Elements& weights, std::size_t vertex,
-                                 const Joints& matrices) {
-    if (vertex >= joints.size() || vertex >= weights.size()) {
-        return std::nullopt;
+// One set of joints and weights; glTF allows any number of sets, four influences each.
+struct Influences {
+    Elements joints, weights;
+};
+
+std::vector<Influences> find_influences(const File& file, const tinygltf::Primitive& primitive) {
+    std::vector<Influences> sets;
+    for (int set = 0;; ++set) {
+        const std::optional<Elements> joints = attribute(file, primitive, fmt::format("JOINTS_{}", set));
+        const std::optional<Elements> weights = attribute(file, primitive, fmt::format("WEIGHTS_{}", set));
+        if (!joints || !weights) {
+            return sets;
+        }
+        sets.push_back({*joints, *weights});
     }
-    const dvec4 names = joints.vector(vertex);
-    const dvec4 w = weights.vector(vertex);
+}
+
+// The mean of the joints' matrices at rest, by the vertex's weights.
+std::optional<dmat4> rest_matrix(const std::vector<Influences>& sets, std::size_t vertex, const Joints& matrices) {
     dmat4 sum(0.0);
     double total = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        const bool exists = names[i] >= 0.0 && names[i] < static_cast<double>(matrices.size());
-        if (exists && w[i] > 0.0 && std::isfinite(w[i])) {
-            sum += w[i] * matrices[static_cast<std::size_t>(names[i])];
-            total += w[i];
+    for (const Influences& set : sets) {
+        if (vertex >= set.joints.size() || vertex >= set.weights.size()) {
+            continue;
+        }
+        const dvec4 names = set.joints.vector(vertex);
+        const dvec4 w = set.weights.vector(vertex);
+        for (int i = 0; i < 4; ++i) {
+            const bool exists = names[i] >= 0.0 && names[i] < static_cast<double>(matrices.size());
+            if (exists && w[i] > 0.0 && std::isfinite(w[i])) {
+                sum += w[i] * matrices[static_cast<std::size_t>(names[i])];
+                total += w[i];
+            }
         }
     }
     return total > 0.0 ? std::optional(sum * (1.0 / total)) : std::nullopt;
 }
 
-void pose(const File& file, const tinygltf::Primitive& primitive, const std::vector<std::uint32_t>& used,
-          const Joints& matrices, Mesh& mesh) {
-    const std::optional<Elements> joints = attribute(file, primitive, "JOINTS_0");
-    const std::optional<Elements> weights = attribute(file, primitive, "WEIGHTS_0");
-    if (!joints || !weights) {
-        return;
-    }
+void pose_by_joints(const File& file, const tinygltf::Primitive& primitive, const std::vector<std::uint32_t>& used,
+                    const Joints& matrices, Mesh& mesh) {
+    const std::vector<Influences> sets = find_influences(file, primitive);
     for (std::size_t v = 0; v < used.size(); ++v) {
-        const std::optional<dmat4> m = rest_matrix(*joints, *weights, used[v], matrices);
+        const std::optional<dmat4> m = rest_matrix(sets, used[v], matrices);
         if (!m) {
             continue;
         }
@@ -139,7 +153,7 @@ bool is_compressed(const File& file, const tinygltf::Primitive& primitive, int p
 
 }  // namespace
 
-Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Joints* joints) {
+Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose) {
     // Only triangles cast shadows.
     Mesh mesh;
     const int mode = mode_of(primitive);
@@ -174,8 +188,9 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
         const dvec2 uv(uvs && v < uvs->size() ? dvec2(uvs->vector(v)) : dvec2(0.0));
         mesh.uvs.emplace_back(uv_use.uv_from_file * dvec3(uv, 1.0));
     }
-    if (joints != nullptr) {
-        pose(file, primitive, used, *joints, mesh);
+    morph(file, primitive, pose.weights, used, mesh);
+    if (pose.joints != nullptr) {
+        pose_by_joints(file, primitive, used, *pose.joints, mesh);
     }
     return mesh;
 }

@@ -29,6 +29,16 @@ dmat4 local_matrix(const tinygltf::Node& node) {
     return glm::translate(dmat4(1.0), t) * glm::mat4_cast(r) * glm::scale(dmat4(1.0), s);
 }
 
+// KHR_node_visibility: what is hidden hides all below it.
+bool hides(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    if (found == node.extensions.end() || !found->second.IsObject() || !found->second.Has("visible")) {
+        return false;
+    }
+    const tinygltf::Value& visible = found->second.Get("visible");
+    return visible.IsBool() && !visible.Get<bool>();
+}
+
 // Who is whose parent; -1 for roots. Two parents make no tree.
 std::vector<int> find_parents(const File& file) {
     const auto& nodes = file.data.nodes;
@@ -102,9 +112,10 @@ std::vector<PlacedNode> walk_nodes(const File& file) {
         visited[static_cast<std::size_t>(node.index)] = true;
         const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
         node.ws_from_node = node.ws_from_node * local_matrix(data);
+        node.visible = node.visible && !hides(data);
         placed.push_back(node);
         for (auto child = data.children.rbegin(); child != data.children.rend(); ++child) {
-            stack.push_back({*child, node.ws_from_node});
+            stack.push_back({*child, node.ws_from_node, node.visible});
         }
     }
     return placed;

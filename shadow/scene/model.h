@@ -60,6 +60,11 @@ inline constexpr std::size_t max_texture_pixels = std::size_t{1} << 29;
 /// Adds a note; after 200 notes one last sentence says that more were left out.
 void add_note(std::vector<std::string>& notes, std::string note);
 
+/// Says that a material's holes are filled because their picture is missing.
+void note_lost_mask(std::vector<std::string>& notes, const std::string& material);
+/// Notes every material in use that lets all light through: such a surface is easily taken for a missing one.
+void note_transparent(Scene& scene);
+
 /// Appends `part` to `whole`, moved by `ws_from_model`.
 void append_model(Model& whole, Model part, const dmat4& ws_from_model);
 

@@ -14,6 +14,7 @@ struct MaterialLibrary::Entry {
     Material material;
     std::string color_map, alpha_map;
     bool clamp = false;
+    bool dissolve_given = false;  ///< by `d`, which goes before `Tr` wherever it stands
 };
 
 namespace {
@@ -126,8 +127,11 @@ void MaterialLibrary::read_file_named(const std::string& name) {
         } else if (key == "Ke") {
             m.emissive = color(line, 1e9F);
         } else if (key == "d") {
+            std::string_view rest = line;
+            line = take_word(rest) == "-halo" ? rest : line;
             m.base_color.w = number_or(line, 1.0F, 0.0F, 1.0F);
-        } else if (key == "Tr") {
+            entry.dissolve_given = true;
+        } else if (key == "Tr" && !entry.dissolve_given) {
             m.base_color.w = 1.0F - number_or(line, 0.0F, 0.0F, 1.0F);
         } else if (key == "Ns") {
             // The width of a Phong lobe as GGX roughness: alpha^2 = 2 / (Ns + 2), alpha = roughness^2.
@@ -155,6 +159,9 @@ void MaterialLibrary::finish(const Entry& entry) {
     // A picture is the colour, not a factor of Kd: exporters write any Kd beside it.
     if (material.base_color_texture >= 0 && !entry.color_map.empty()) {
         material.base_color = vec4(1.0F, 1.0F, 1.0F, material.base_color.w);
+    }
+    if (material.base_color_texture < 0 && !entry.alpha_map.empty()) {
+        note_lost_mask(model_.notes, material.name);
     }
     const bool masked = material.base_color_texture >= 0 && !entry.alpha_map.empty();
     material.alpha_mode = masked                         ? AlphaMode::mask

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a file: found behind textures and their extensions, decoded once each, kept within a bound.
+#include "shadow/scene/gltf_pictures.h"
+
+#include <algorithm>
+
+namespace gn::gltf {
+
+bool Pictures::exists(int image) const {
+    return image >= 0 && static_cast<std::size_t>(image) < file_.data.images.size();
+}
+
+// The pictures that stand for one texture, the preferred first: WebP is smaller and may be the only one.
+std::vector<int> Pictures::sources(int texture_index) {
+    if (texture_index < 0) {
+        return {};
+    }
+    if (static_cast<std::size_t>(texture_index) >= file_.data.textures.size()) {
+        add_note(file_.notes,
+                 fmt::format("Texture {} does not exist; the surface keeps its plain colour.", texture_index));
+        return {};
+    }
+    const tinygltf::Texture& texture = file_.data.textures[static_cast<std::size_t>(texture_index)];
+    std::vector<int> found;
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp != texture.extensions.end()) {
+        const double source = number(webp->second, "source").value_or(-1.0);
+        if (source >= 0.0 && source < static_cast<double>(file_.data.images.size())) {
+            found.push_back(static_cast<int>(source));
+        }
+    }
+    if (exists(texture.source)) {
+        found.push_back(texture.source);
+    }
+    if (found.empty()) {
+        add_note(file_.notes,
+                 fmt::format("Texture {} names no picture that can be read; the surface keeps its plain colour.",
+                             texture_index));
+    }
+    return found;
+}
+
+int Pictures::texture(int texture_index) {
+    for (const int image : sources(texture_index)) {
+        const int index = texture(texture_index, image);
+        if (index >= 0) {
+            return index;
+        }
+    }
+    return -1;
+}
+
+int Pictures::texture(int texture_index, int image_index) {
+    // How it is repeated.
+    const tinygltf::Texture& texture = file_.data.textures[static_cast<std::size_t>(texture_index)];
+    bool repeat_u = true;
+    bool repeat_v = true;
+    if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < file_.data.samplers.size()) {
+        const tinygltf::Sampler& sampler = file_.data.samplers[static_cast<std::size_t>(texture.sampler)];
+        repeat_u = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        repeat_v = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
+            sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) {
+            add_note(file_.notes, "Mirrored repetition of a texture is shown as plain repetition.");
+        }
+    }
+
+    const std::array key{image_index, repeat_u ? 1 : 0, repeat_v ? 1 : 0};
+    const auto known = textures_.find(key);
+    if (known != textures_.end()) {
+        return known->second;
+    }
+    int index = -1;
+    if (std::optional<Image8> image = decode(image_index)) {
+        index = static_cast<int>(model_.textures.size());
+        model_.textures.push_back({shown_name(image_index), std::move(*image), repeat_u, repeat_v});
+    }
+    textures_[key] = index;
+    return index;
+}
+
+vec2 Pictures::mean_green_blue(int texture_index) {
+    for (const int source : sources(texture_index)) {
+        const auto known = means_.find(source);
+        if (known != means_.end()) {
+            return known->second;
+        }
+        if (const std::optional<Image8> image = decode(source)) {
+            std::uint64_t green = 0;
+            std::uint64_t blue = 0;
+            for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
+                green += image->rgba[i + 1];
+                blue += image->rgba[i + 2];
+            }
+            const double whole = 255.0 * static_cast<double>(image->rgba.size() / 4);
+            means_[source] = vec2(static_cast<double>(green) / whole, static_cast<double>(blue) / whole);
+            return means_[source];
+        }
+    }
+    return vec2(1.0F);
+}
+
+std::string Pictures::shown_name(int image) const {
+    const tinygltf::Image& data = file_.data.images[static_cast<std::size_t>(image)];
+    const std::string& name = !data.name.empty() ? data.name : data.uri;
+    return name.empty() ? fmt::format("image {}", image) : clean_text(name);
+}
+
+std::span<const std::byte> Pictures::bytes_of(int image) const {
+    const auto external = file_.external_images.find(image);
+    if (external != file_.external_images.end()) {
+        return external->second;
+    }
+    const tinygltf::Image& data = file_.data.images[static_cast<std::size_t>(image)];
+    if (data.bufferView < 0) {
+        fail("picture '{}' cannot be read from the model's folder", shown_name(image));
+    }
+    const tinygltf::BufferView& view = at(file_.data.bufferViews, data.bufferView, file_, "buffer view");
+    const tinygltf::Buffer& buffer = at(file_.data.buffers, view.buffer, file_, "buffer");
+    if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset) {
+        fail("picture '{}' does not lie inside its buffer", shown_name(image));
+    }
+    return {reinterpret_cast<const std::byte*>(buffer.data.data()) + view.byteOffset, view.byteLength};
+}
+
+std::optional<Image8> Pictures::decode(int image) {
+    if (broken_.count(image) > 0) {
+        return std::nullopt;
+    }
+    try {
+        if (pixels_ > max_texture_pixels) {
+            fail("picture '{}' is one too many: a scene may have {} pixels in all", shown_name(image),
+                 max_texture_pixels);
+        }
+        Image8 decoded = decode_image(bytes_of(image), fmt::format("picture '{}'", shown_name(image)));
+        pixels_ += decoded.rgba.size() / 4;
+        return decoded;
+    } catch (const Error& problem) {
+        broken_[image] = true;
+        add_note(file_.notes, fmt::format("{}; the surface keeps its plain colour.", problem.what()));
+        return std::nullopt;
+    }
+}
+
+}  // namespace gn::gltf

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a glTF file.
+#pragma once
+
+#include "shadow/scene/gltf_data.h"
+
+namespace gn::gltf {
+
+/// Decodes each picture once; a broken one is reported once and then missing.
+class Pictures {
+  public:
+    Pictures(File& file, Model& model) : file_(file), model_(model) {}
+
+    /// Index into model.textures, or -1.
+    int texture(int texture_index);
+    /// Mean green and blue of a picture, (1, 1) without one.
+    vec2 mean_green_blue(int texture_index);
+
+  private:
+    [[nodiscard]] bool exists(int image) const;
+    std::vector<int> sources(int texture_index);
+    int texture(int texture_index, int image_index);
+    [[nodiscard]] std::string shown_name(int image) const;
+    [[nodiscard]] std::span<const std::byte> bytes_of(int image) const;
+    std::optional<Image8> decode(int image);
+
+    File& file_;
+    Model& model_;
+    std::map<std::array<int, 3>, int> textures_;
+    std::map<int, vec2> means_;
+    std::map<int, bool> broken_;
+    std::size_t pixels_ = 0;
+};
+
+}  // namespace gn::gltf
