@@ -66,9 +66,9 @@ inline Scene with_stray(Scene scene, vec3 at_ws, bool own_object) {
 inline std::vector<float> visibility_of(const Scene& scene, const std::string& recipe, uint size) {
     const ValidationGuard guard;
     SceneGpu gpu = upload_scene(device(), scene);
-    const FrameResult frame = render_frame(device(), gpu, scene.camera(""), load_recipe(recipe),
-                                           {.width = size, .height = size, .repeat = 0, .only_light = 0,
-                                            .picture = false});
+    const FrameResult frame =
+        render_frame(device(), gpu, scene.camera(""), load_recipe(recipe),
+                     {.width = size, .height = size, .repeat = 0, .only_light = 0, .picture = false});
     return frame.refused.front().empty() ? frame.visibility.front().values : std::vector<float>{};
 }
 

@@ -15,9 +15,9 @@ const std::vector<std::string> kinds{"directional", "spot", "point", "rectangle"
 std::vector<std::string> recipes() {
     std::vector<std::string> all = recipe_names();
     std::erase(all, "none");
-    for (const char* placement :
-         {"single", "cube", "cube,cube.resolution=coverage", "paraboloid", "psm", "tsm", "cascades,cascades.fit=plain",
-          "cascades,cascades.fit=warped", "cascades,cascades.select=projection", "cascades,cascades.split=sdsm-histogram"}) {
+    for (const char* placement : {"single", "cube", "cube,cube.resolution=coverage", "paraboloid", "psm", "tsm",
+                                  "cascades,cascades.fit=plain", "cascades,cascades.fit=warped",
+                                  "cascades,cascades.select=projection", "cascades,cascades.split=sdsm-histogram"}) {
         all.push_back(std::string("pcf,placement=") + placement);
     }
     for (std::string& recipe : all) {
@@ -52,7 +52,7 @@ TEST(Scale, ByPowersOfTwoChangesNoBitOfV) {
 /// Decades round every vertex anew, by 2^-24 of its coordinates: 1/1000 of a texel here at most. Where an edge passes the
 /// centre of a texel within that, one texel of the map changes, and the samples that read it: a handful of the 9216.
 TEST(Scale, ByDecadesChangesSamplesAtRimsAlone) {
-    const std::vector<std::string> some{"hard,resolution=256", "pcf,resolution=256", "vsm,resolution=256",
+    const std::vector<std::string> some{"hard,resolution=256",  "pcf,resolution=256",      "vsm,resolution=256",
                                         "evsm4,resolution=256", "cascades,resolution=256", "volumes"};
     for (const float scale : {1e-4F, 1e7F}) {
         SCOPED_TRACE(scale);
