@@ -124,12 +124,16 @@ void main() {
     vec2 in_uv = hit.x * in_uv_a + hit.y * in_uv_b + hit.z * in_uv_c;
 #endif
 #endif
+    // Neighbours must be there: alpha discards after this.
+    vec2 slope = vec2(dFdx(in_depth), dFdy(in_depth));
 #ifdef GN_MASKED
     if (textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.alpha_cutoff) {
         discard;
     }
 #endif
+    // What is clamped lies flat on the near plane.
     float depth = clamp(in_depth, 0.0, 1.0);
+    slope = depth == in_depth ? slope : vec2(0.0);
 #ifdef GN_WRITE_DEPTH
     gl_FragDepth = depth;
 #ifdef GN_PUSHED

@@ -14,7 +14,8 @@ namespace gn {
 struct CasterFragment {
     std::string includes;  ///< GLSL before main: includes, uniform blocks
     std::string
-        body;  ///< GLSL in main; reads `float depth` (linear, [0,1]) and writes the outputs it declared in `includes`
+        body;  ///< GLSL in main; reads `float depth` (linear, [0,1]) and `vec2 slope` (its change from texel to texel,
+               ///< none where it was clamped), and writes the outputs that it declared in `includes`
 };
 
 struct CasterPass {

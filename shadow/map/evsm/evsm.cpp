@@ -34,8 +34,7 @@ layout(binding = 3, scalar) uniform MapParams { GnEvsmParams map_params; };
 layout(location = 0) out vec4 out_moments;
 )";
     moments.fragment.body = R"(
-    vec2 slope = map_params.slope_moment != 0 ? vec2(dFdx(in_depth), dFdy(in_depth)) : vec2(0.0);
-    out_moments = gn_evsm_encode(depth, slope, map_params);
+    out_moments = gn_evsm_encode(depth, map_params.slope_moment != 0 ? slope : vec2(0.0), map_params);
 )";
     moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
     const TextureHandle raw = add_moments(input, recipe, views, moments);

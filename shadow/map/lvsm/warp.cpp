@@ -63,7 +63,7 @@ TextureHandle add_depths(const FrameInput& input, const Recipe& recipe, const Li
     CasterFragment fragment;
     fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
     fragment.body = params.slope_moment != 0
-                        ? "out_moments = vec4(depth, gn_vsm_moments(0.0, dFdx(in_depth), dFdy(in_depth)).y, 0, 0);"
+                        ? "out_moments = vec4(depth, gn_vsm_moments(0.0, slope.x, slope.y).y, 0, 0);"
                         : "out_moments = vec4(depth, 0, 0, 0);";
     const TextureHandle target = input.graph.create(color);
     add_caster_passes(input, recipe, views,

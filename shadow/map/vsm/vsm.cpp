@@ -20,7 +20,7 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
     moments.fragment.body = params.slope_moment != 0
-                                ? "out_moments = vec4(gn_vsm_moments(depth, dFdx(in_depth), dFdy(in_depth)), 0, 0);"
+                                ? "out_moments = vec4(gn_vsm_moments(depth, slope.x, slope.y), 0, 0);"
                                 : "out_moments = vec4(gn_vsm_moments(depth, 0.0, 0.0), 0, 0);";
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
