@@ -26,54 +26,63 @@ std::vector<std::string> recipes() {
     return all;
 }
 
-/// What differs between a scene and the same scene changed, in one line a recipe and kind of light.
-template <class Change>
-void expect_equal(const std::vector<std::string>& all, float slack, std::size_t most, const Change& change) {
+struct Change {
+    std::string name;
+    std::function<Scene(const Scene&)> apply;
+};
+
+/// V of every recipe under every kind of light, before and after each change.
+void expect_equal(const std::vector<std::string>& all, float slack, std::size_t most,
+                  const std::vector<Change>& changes) {
     for (const std::string& kind : kinds) {
         const Scene scene = lit_scene(kind);
-        const Scene changed = change(scene);
+        std::vector<Scene> changed;
+        for (const Change& change : changes) {
+            changed.push_back(change.apply(scene));
+        }
         for (const std::string& recipe : all) {
             const std::vector<float> before = visibility_of(scene, recipe, size);
-            const std::vector<float> after = visibility_of(changed, recipe, size);
-            EXPECT_LE(count_differing(before, after, slack), most) << recipe << " under a light: " << kind;
+            for (std::size_t i = 0; i < changes.size(); ++i) {
+                if (changes[i].name == "a stray triangle" && kind == "directional" &&
+                    recipe.find("placement=single") != std::string::npos) {
+                    continue;  // a single map under a sun covers the whole scene by its definition
+                }
+                EXPECT_LE(count_differing(before, visibility_of(changed[i], recipe, size), slack), most)
+                    << recipe << ", " << kind << " light, " << changes[i].name;
+            }
         }
     }
 }
 
+constexpr vec3 far_away{3e6F, 10, 2e6F};
+
 /// Powers of two near 1e-4 and 1e7: every product and sum of floats scales without any rounding, so that not a bit of V
-/// may change. What does change is a length that someone wrote down in metres.
-TEST(Scale, ByPowersOfTwoChangesNoBitOfV) {
-    for (const float scale : {0x1p-13F, 0x1p23F}) {
-        SCOPED_TRACE(scale);
-        expect_equal(recipes(), 0, 0, [&](const Scene& scene) { return rescaled(scene, scale); });
-    }
+/// may change. What does change is a length that someone wrote down in metres. And a triangle a hundred thousand times as
+/// far away as the scene is large, beside the light's way: nothing that is seen has moved.
+TEST(Scale, PowersOfTwoAndStraysChangeNoBitOfV) {
+    expect_equal(recipes(), 0, 0,
+                 {{"scaled by 2^-13", [](const Scene& scene) { return rescaled(scene, 0x1p-13F); }},
+                  {"scaled by 2^23", [](const Scene& scene) { return rescaled(scene, 0x1p23F); }},
+                  {"a stray triangle", [](const Scene& scene) { return with_stray(scene, far_away, true); }}});
+}
+
+TEST(Scale, AStrayTriangleOfAnotherObjectChangesNoBitEither) {
+    expect_equal({"hard,resolution=256", "cascades,resolution=256"}, 0, 0,
+                 {{"a stray triangle", [](const Scene& scene) { return with_stray(scene, far_away, false); }}});
 }
 
 /// Decades round every vertex anew, by 2^-24 of its coordinates: 1/1000 of a texel here at most. Where an edge passes the
 /// centre of a texel within that, one texel of the map changes, and the samples that read it: a handful of the 9216.
-TEST(Scale, ByDecadesChangesSamplesAtRimsAlone) {
-    const std::vector<std::string> some{"hard,resolution=256",  "pcf,resolution=256",      "vsm,resolution=256",
-                                        "evsm4,resolution=256", "cascades,resolution=256", "volumes"};
-    for (const float scale : {1e-4F, 1e7F}) {
-        SCOPED_TRACE(scale);
-        expect_equal(some, 0.02F, 24, [&](const Scene& scene) { return rescaled(scene, scale); });
-    }
-}
-
-/// A triangle a hundred thousand times as far away as the scene is large, beside the light's way. Nothing that is seen has
-/// moved, so that V is the same to the bit. A single map under a sun covers the whole scene by its definition.
-TEST(Scale, AStrayTriangleChangesNothing) {
-    std::vector<std::string> all = recipes();
-    std::erase(all, "pcf,placement=single,resolution=256");
-    for (const bool own_object : {true, false}) {
-        SCOPED_TRACE(own_object ? "an object of its own" : "of the last object");
-        expect_equal(all, 0, 0,
-                     [&](const Scene& scene) { return with_stray(scene, vec3(3e6F, 10, 2e6F), own_object); });
-    }
+TEST(Scale, DecadesChangeSamplesAtRimsAlone) {
+    expect_equal(
+        {"hard,resolution=256", "pcf,resolution=256", "vsm,resolution=256", "cascades,resolution=256", "volumes"},
+        0.02F, 24,
+        {{"scaled by 1e-4", [](const Scene& scene) { return rescaled(scene, 1e-4F); }},
+         {"scaled by 1e7", [](const Scene& scene) { return rescaled(scene, 1e7F); }}});
 }
 
 TEST(Scale, ASingleMapUnderASunSaysWhatAStrayCosts) {
-    const Scene scene = with_stray(lit_scene("directional"), vec3(3e6F, 10, 2e6F), true);
+    const Scene scene = with_stray(lit_scene("directional"), far_away, true);
     SceneGpu gpu = upload_scene(test::device(), scene);
     const auto remarks_of = [&](const char* recipe) {
         return render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),

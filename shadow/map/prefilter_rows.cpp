@@ -48,9 +48,9 @@ ParamRow min_deviation_row(std::size_t offset) {
             ParamType::real,
             offset,
             0,
-            1,
-            "m",
-            "Least standard deviation of depth assumed: less acne, softer contacts.",
+            100,
+            "texels",
+            "Least standard deviation of depth assumed, a length on the receiver: less acne, softer contacts.",
             {}};
 }
 

@@ -61,10 +61,15 @@ Rectangle least_rectangle(const std::vector<dvec2>& points) {
     return best;
 }
 
+/// Length of an interval, never shorter than the rounding of its ends to float.
+double length_of(double low, double high) {
+    return std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
+}
+
 /// Widens an interval so that a kernel of the guard's reach stays inside the map.
 void widen(double& low, double& high, Guard guard, double metres, int resolution) {
     const double share = std::min(0.4, static_cast<double>(guard.texels) / resolution);
-    const double size = std::max(high - low, 1e-6);
+    const double size = length_of(low, high);
     const double margin = (size * share + metres) / (1 - 2 * share);
     low -= margin;
     high += margin;
@@ -98,7 +103,7 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
         near = std::min(near, glm::dot(p, axis));
         far = std::max(far, glm::dot(p, axis));
     }
-    const double slack = 1e-4 * std::max(far - near, 1e-3);
+    const double slack = 1e-4 * length_of(near, far);
     near -= slack + static_cast<double>(guard.metres);
     far += slack;
 
@@ -147,10 +152,12 @@ GnLightView perspective(dvec3 eye, dvec3 axis, dvec3 right, dvec3 down, dvec2 mi
 
 }  // namespace
 
-Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& scene_ws, int resolution, Guard guard) {
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
     const dvec3 eye(vec3(light.position_ws));
-    const double far = 1.001 * farthest(scene_ws, vec3(light.position_ws)) + 1e-3;
-    const double near = near_plane(far);
+    double reach = 0;
+    for (const dvec3& p : body.vertices()) {
+        reach = std::max(reach, glm::length(p - eye));
+    }
 
     // Look at the middle of what is to be seen; a spot keeps its own axis.
     dvec3 axis(0);
@@ -165,12 +172,17 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& 
     vec3 yf;
     complete_frame(vec3(axis), xf, yf);
 
-    // Project onto the plane of tangents; give up beyond 75 degrees from the axis.
+    // Project onto the plane of tangents; give up beyond 75 degrees from the axis. Depth runs from the nearest to the
+    // farthest point.
     std::vector<dvec2> points;
+    double near = reach;
+    double far = 0;
     for (const dvec3& p : body.vertices()) {
         const dvec3 d = p - eye;
         const double along = glm::dot(d, axis);
-        if (glm::length(d) < 1e-9) {
+        near = std::min(near, along);
+        far = std::max(far, along);
+        if (glm::length(d) < 1e-9 * reach) {
             continue;  // the apex of the light's own pyramid
         }
         if (along < 0.2588 * glm::length(d)) {
@@ -187,6 +199,13 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& 
     widen(r.min.y, r.max.y, guard, 0.0, resolution);
     const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
     const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
+
+    // [EASW09] near and far planes of the body; casters before the near plane are clamped to it. Two texels of room let
+    // biased receivers stay behind it, a thousandth covers rounding.
+    const dvec2 side = (r.max - r.min) / static_cast<double>(resolution);
+    const double texel = std::max(side.x, side.y);
+    far *= 1.001;
+    near = std::max(near * (1 - 2 * texel) - 1e-3 * (far - near), near_plane(far));
     return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};
 }
 
@@ -199,7 +218,7 @@ GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tan
 
 void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& recipe) {
     const vec3 eye_ws(input.light().shape.position_ws);
-    const double far = 1.001 * farthest(input.scene.bounds_ws, eye_ws) + 1e-3;
+    const double far = reach_of(input);
     const double share = std::min(0.4, static_cast<double>(guard_of(recipe).texels) / recipe.resolution);
 
     // A world radius is widest in angle where receivers are nearest; it is held to a tenth of the face.

@@ -31,6 +31,10 @@ ConvexBody body_of(const Camera& camera, float aspect, double near, double far);
 ConvexBody clip(const ConvexBody& body, const Plane& plane);
 std::vector<Plane> frustum_planes(const Camera& camera, float aspect, double near, double far);
 
+/// The bounds of what the camera can see: of the scene's clusters that meet its frustum, so that a triangle that strayed
+/// far away widens no map and no depth range. All of the scene where the camera sees none.
+Box seen_bounds(const FrameInput& input);
+
 /// L ∩ V ∩ S for the whole view: what the light reaches of what the camera sees of the scene's box.
 ConvexBody potential_receivers(const FrameInput& input);
 /// The same between two distances along the camera's axis (one cascade).
@@ -47,9 +51,10 @@ struct Fitted {
 /// The tightest orthographic view along the light's direction around the body: the rectangle of least area. Casters
 /// before the near plane are kept by depth clamping. Guards widen it.
 GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
-/// The tightest perspective view from the light's position, or invalid when the body spans too wide an angle.
-Fitted fit_perspective(const ConvexBody& body, const GnLight& light, const Box& scene_ws, int resolution, Guard guard);
-/// A square perspective view along `axis` with half-angle tangent 1 x widen and linear depth up to far.
+/// The tightest perspective view from the light's position, near and far planes the body's own, or invalid when the body
+/// spans too wide an angle.
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
+/// A square perspective view along `axis` with half-angle tangent 1 x widen and linear depth between near and far.
 GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,
                                int resolution);
 
@@ -59,7 +64,10 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& re
 
 /// Distance from a point to the farthest corner of the box.
 double farthest(const Box& box_ws, vec3 p_ws);
-/// Distance to the near plane of a light: small, since depth is linear and costs no precision.
+/// How far a light with a position must see: to the farthest of what the camera can see, or to the light's range, beyond
+/// which no sample counts.
+double reach_of(const FrameInput& input);
+/// Distance to the near plane of a light whose receivers may be anywhere: small, since depth is linear and costs no precision.
 double near_plane(double far);
 
 }  // namespace gn

@@ -106,7 +106,7 @@ TEST(FitPerspective, HullTouchesAllFourBorders) {
     light.position_ws = vec4(0, 5, 0, 1);
     light.direction_ws = vec4(0, -1, 0, 0);
     const ConvexBody body = body_of(Box{vec3(-1, 0, -2), vec3(2, 1, 1)});
-    const Fitted fitted = fit_perspective(body, light, Box{vec3(-5), vec3(5)}, 512, {});
+    const Fitted fitted = fit_perspective(body, light, 512, {});
     ASSERT_TRUE(fitted.valid);
     dvec2 low(1e9);
     dvec2 high(-1e9);
@@ -130,7 +130,7 @@ TEST(FitPerspective, RefusesABodyAroundTheLight) {
     light.position_ws = vec4(0, 0.5F, 0, 1);
     light.direction_ws = vec4(0, -1, 0, 0);
     const ConvexBody body = body_of(Box{vec3(-9, 0, -9), vec3(9, 0.4F, 9)});
-    EXPECT_FALSE(fit_perspective(body, light, Box{vec3(-9), vec3(9)}, 512, {}).valid);
+    EXPECT_FALSE(fit_perspective(body, light, 512, {}).valid);
 }
 
 }  // namespace

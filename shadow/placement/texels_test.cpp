@@ -256,7 +256,7 @@ TEST(TexelsAlongTheView, WritesItsCurves) {
                     {"psm", "psm,psm.back=0"},
                     {"tsm", "tsm"},
                     {"lispsm", "lispsm"},
-                    {"lispsm, near=2.2", "lispsm,lispsm.near=2.2"}}),
+                    {"lispsm, near=0.0044", "lispsm,lispsm.near=0.0044"}}),
           panel_of("Logarithmic cascades of 1024 texels each", scene, cascades),
           {{"title", "Storage: texels needed per pixel"},
            {"x", axis("maps", false)},

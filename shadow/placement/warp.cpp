@@ -76,7 +76,8 @@ void fit_rectangle(const Plane2& plane, const std::vector<dvec2>& points, Warp& 
         warp.min = glm::min(warp.min, r);
         warp.max = glm::max(warp.max, r);
     }
-    const dvec2 margin = glm::max(warp.max - warp.min, dvec2(1e-9)) * (plane.share / (1 - 2 * plane.share));
+    const dvec2 size = warp.max - warp.min;
+    const dvec2 margin = glm::max(size, dvec2(1e-9 * std::max(size.x, size.y))) * (plane.share / (1 - 2 * plane.share));
     warp.min -= margin;
     warp.max += margin;
 }

@@ -68,11 +68,12 @@ GnLightView even_view(const Plane2& plane, double eta);
 /// The same as first published: the centre lies n / sin(angle) before the nearest receiver, on the light's plane, whatever
 /// that does to texels.
 GnLightView sine_view(const Plane2& plane, double eta);
-/// A receiver this near, in metres, steers the warp unless asked otherwise.
-inline constexpr double usual_near = 1;
+/// Receivers nearer than this share of the farthest one's depth do not steer the warp unless asked otherwise. Without it
+/// whatever stands before the camera takes the whole map; a ratio of depths of two hundred to one is what one map can serve.
+inline constexpr double usual_near = 0.005;
 
 /// The plane of a body of receivers under its fitted view, or nothing where there is no direction or depth to warp along.
-/// `pseudo_near` in metres: nearer receivers are in the map but do not steer the warp.
+/// `pseudo_near` as a share of the farthest receiver's depth: nearer ones are in the map but do not steer the warp.
 std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
                                const Recipe& recipe, double pseudo_near);
 

@@ -65,9 +65,14 @@ void align(Plane2& plane, dvec2 along) {
 
 std::vector<Spot> spots_of(const Plane2& plane, const ConvexBody& body, const View& view) {
     std::vector<Spot> spots;
-    for (const dvec3& p : body.vertices()) {
+    const std::vector<dvec3> vertices = body.vertices();
+    double farthest = 0;
+    for (const dvec3& p : vertices) {
+        farthest = std::max(farthest, glm::dot(plane.w_row, dvec4(p, 1)));
+    }
+    for (const dvec3& p : vertices) {
         const double w = glm::dot(plane.w_row, dvec4(p, 1));
-        if (w > 1e-6) {
+        if (w > 1e-6 * farthest) {
             spots.push_back({on_plane(plane, p), glm::dot(p - view.eye, view.forward), w});
         }
     }
@@ -117,7 +122,7 @@ std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, 
     for (const Spot& spot : plane.spots) {
         end = std::max(end, spot.depth);
     }
-    const double first = std::min(pseudo_near, 0.1 * end);
+    const double first = pseudo_near * end;
     const ConvexBody beyond = clip(body, {view.forward, -glm::dot(view.forward, view.eye) - first});
     plane.far_spots = spots_of(plane, beyond, view);
     plane.near = plane.start = 1e300;
@@ -155,7 +160,7 @@ LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_ne
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
         fitted = fit_orthographic(body, light, recipe.resolution, guard_of(recipe));
     } else {
-        const Fitted fit = fit_perspective(body, light, input.scene.bounds_ws, recipe.resolution, guard_of(recipe));
+        const Fitted fit = fit_perspective(body, light, recipe.resolution, guard_of(recipe));
         if (!fit.valid) {
             add_cube_views(views, input, recipe);
             return views;

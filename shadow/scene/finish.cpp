@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Completing a scene: what every later stage may rely on is established here.
 #include "base/error.h"
+#include "shadow/scene/clusters.h"
 #include "shadow/scene/model.h"
 
 #include <algorithm>
@@ -189,6 +190,7 @@ void finish_scene(Scene& scene) {
     // Geometry that can be trusted.
     check_structure(scene);
     drop_bad_triangles(scene);
+    split_objects(scene);
     recentre(scene);
     clean_vertices(scene);
     complete_normals(scene);

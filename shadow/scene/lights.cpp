@@ -10,6 +10,7 @@ namespace gn {
 namespace {
 
 constexpr float brightest = 1e9F;          // the sun's disc has 1.6e9 cd/m^2; beyond, products overflow
+constexpr float most_candela = 1e24F;      // a million lux at the farthest coordinate, 1e9 m
 constexpr float widest_cone = 1.5F;        // rad: 86 degrees, half angle; at 90 a projection ceases to exist
 constexpr float narrowest_cone = 0.0087F;  // rad: half a degree
 
@@ -73,13 +74,15 @@ void repair_light(Light& light, std::vector<std::string>& notes) {
         shape.position_ws[axis] = repair.within(shape.position_ws[axis], -1e9F, 1e9F, 0.0F, "a coordinate");
         shape.color[axis] = repair.within(shape.color[axis], 0.0F, 1e4F, 0.0F, "a colour channel");
     }
-    shape.intensity = repair.within(shape.intensity, 0.0F, brightest, 0.0F, "an intensity");
+    const bool candela = shape.kind == GN_LIGHT_SPOT || shape.kind == GN_LIGHT_POINT;
+    const float most = candela ? most_candela : brightest;
+    shape.intensity = repair.within(shape.intensity, 0.0F, most, 0.0F, "an intensity");
     shape.range = repair.within(shape.range, 0.0F, 1e9F, 0.0F, "a range (0 is unlimited)");
-    shape.radius = repair.within(shape.radius, 0.0F, 1e6F, 0.0F, "a radius");
+    shape.radius = repair.within(shape.radius, 0.0F, 1e9F, 0.0F, "a radius");
     shape.angular_radius = repair.within(shape.angular_radius, 0.0F, 1.5F, 0.0F, "an angular radius");
     if (shape.kind == GN_LIGHT_RECTANGLE) {
-        shape.half_size.x = repair.within(shape.half_size.x, 1e-6F, 1e6F, 0.5F, "half a width");
-        shape.half_size.y = repair.within(shape.half_size.y, 1e-6F, 1e6F, 0.5F, "half a height");
+        shape.half_size.x = repair.within(shape.half_size.x, 1e-12F, 1e9F, 0.5F, "half a width");
+        shape.half_size.y = repair.within(shape.half_size.y, 1e-12F, 1e9F, 0.5F, "half a height");
     }
     if (shape.kind == GN_LIGHT_SPOT) {
         repair_spot(shape, repair);

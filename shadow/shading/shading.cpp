@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shading: a little light from everywhere, then each light times its visibility, one pass a light.
 #include "shadow/frame.h"
+#include "shadow/scene/clusters.h"
 
 #include <algorithm>
 
@@ -81,7 +82,8 @@ struct LightConstants {
 
 /// Ambient illuminance, lux: a share of what the lights give on the scene, so that shadows are dark but not black.
 float ambient_of(const Scene& scene) {
-    const float reach = std::max(0.2F * scene.bounds_ws.diagonal(), 0.5F);
+    const Box around_ws = largest_cluster(scene);
+    const float reach = around_ws.empty() ? 1.0F : 0.2F * around_ws.diagonal();
     float sum = 0;
     for (const Light& light : scene.lights) {
         const GnLight& shape = light.shape;

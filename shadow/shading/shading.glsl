@@ -18,7 +18,8 @@ GN_FN float gn_illuminance(GnLight light, vec3 p_ws) {
         return light.intensity;
     }
     vec3 d_ws = vec3(light.position_ws) - p_ws;
-    float distance2 = max(dot(d_ws, d_ws), 1.0e-6f);
+    // A surface that touches the light is as far from it as the rounding of its place.
+    float distance2 = max(dot(d_ws, d_ws), 1.0e-12f * dot(p_ws, p_ws) + 1.0e-30f);
     float cosine = dot(normalize(d_ws), -vec3(light.direction_ws));
 
     // The range fades the light out as the glTF extension recommends.

@@ -46,8 +46,7 @@ TEST(Forward, ATexelReturnsToWhereItWasSeen) {
     spot.kind = GN_LIGHT_SPOT;
     spot.position_ws = vec4(1, 9, 2, 1);
     spot.direction_ws = vec4(normalize(vec3(0.2F, -1, 0.1F)), 0);
-    const Fitted fitted =
-        fit_perspective(body_of(Box{vec3(-1, 0, -1), vec3(4, 1, 3)}), spot, Box{vec3(-5), vec3(5)}, 512, {});
+    const Fitted fitted = fit_perspective(body_of(Box{vec3(-1, 0, -1), vec3(4, 1, 3)}), spot, 512, {});
     ASSERT_TRUE(fitted.valid);
     const GnLightView& view = fitted.view;
     std::mt19937 random(6);

@@ -2,6 +2,7 @@
 #include "shadow/direct/planar/planar_planes.h"
 
 #include "shadow/direct/stage.h"
+#include "shadow/scene/clusters.h"
 
 #include <algorithm>
 #include <bit>
@@ -86,8 +87,8 @@ bool lies_in(const Scene& scene, std::size_t triangle, const Facet& plane, doubl
 }
 
 ReceiverPlanes find_planes(const Scene& scene, const GnPlanarParams& params) {
-    ReceiverPlanes found{.tolerance = params.tolerance * scene.bounds_ws.diagonal()};
-    const double tolerance = std::max(static_cast<double>(found.tolerance), 1e-9);
+    ReceiverPlanes found{.tolerance = params.tolerance * largest_cluster(scene).diagonal()};
+    const double tolerance = std::max(static_cast<double>(found.tolerance), 1e-30);
     double total = 0;
     std::vector<Facet> taken;
     for (const Cell& cell :

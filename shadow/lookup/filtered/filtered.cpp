@@ -14,7 +14,8 @@ Guard guard(const Recipe& recipe) {
     const auto params = recipe.of<GnFilteredParams>("filtered");
     switch (params.footprint) {
         case GN_FILTERED_RADIUS: return {.texels = params.radius + 2};
-        case GN_FILTERED_WORLD: return {.texels = 2, .metres = params.radius_world};
+        case GN_FILTERED_WORLD:
+            return {.texels = params.radius_world > 0 ? 2 : params.radius + 2, .metres = params.radius_world};
         default: return {.texels = 4};
     }
 }
@@ -38,7 +39,7 @@ const Part& lookup_filtered() {
             GN_PARAM(GnFilteredParams, radius, real, 0, 128, "texels",
                      "Half the kernel's side for footprint=radius: softer edges, more bleeding."),
             GN_PARAM(GnFilteredParams, radius_world, real, 0, 100, "m",
-                     "Half the kernel's side on the receiver for footprint=world."),
+                     "Half the kernel's side on the receiver for footprint=world; 0 takes `radius` texels."),
             GN_PARAM(GnFilteredParams, sharpness, real, 0.1, 8, "",
                      "Divides the pixel's footprint: sharper shadows far away, more flicker."),
         });

@@ -26,7 +26,7 @@ GN_FN GnFootprint gn_filtered_footprint(GnReceiver receiver, GnProjected project
         return footprint;
     }
     vec2 side_ts = vec2(2.0f * params.radius * projected.texel_ts);
-    if (params.footprint == GN_FILTERED_WORLD) {
+    if (params.footprint == GN_FILTERED_WORLD && params.radius_world > 0.0f) {
         side_ts = gn_texels(projected, 2.0f * params.radius_world) * projected.texel_ts;
     }
     footprint.ddx_ts = vec2(side_ts.x, 0.0f);

@@ -12,7 +12,7 @@
 struct GnFilteredParams {
     int footprint GN_DEFAULT(GN_FILTERED_PIXEL);
     float radius GN_DEFAULT(1.5f);
-    float radius_world GN_DEFAULT(0.05f);
+    float radius_world GN_DEFAULT(0.0f);
     float sharpness GN_DEFAULT(1.0f);
 };
 

@@ -65,7 +65,7 @@ GN_FN float gn_evsm_visible(vec4 moments, float depth, float deviation, GnEvsmPa
 float gn_evsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
                          GnEvsmParams params) {
     vec4 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
-    return gn_evsm_visible(moments, projected.depth, params.min_deviation / projected.metres_per_depth, params);
+    return gn_evsm_visible(moments, projected.depth, gn_vsm_deviation(projected, params.min_deviation), params);
 }
 
 #endif

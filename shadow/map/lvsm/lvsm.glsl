@@ -88,7 +88,7 @@ float gn_lvsm_layer_visibility(sampler2DArray map, sampler2DArray splits, GnProj
     float texture_layer = float(projected.layer * gn_lvsm_textures(params.layers) + i / 2);
     vec4 texel = textureGrad(map, vec3(projected.uv_ts, texture_layer), ddx_ts, ddy_ts);
     return gn_lvsm_bound((i & 1) == 0 ? texel.xy : texel.zw, projected.depth, interval,
-                         params.min_deviation / projected.metres_per_depth, params);
+                         gn_vsm_deviation(projected, params.min_deviation), params);
 }
 
 float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,

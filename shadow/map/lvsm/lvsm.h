@@ -24,7 +24,7 @@ struct GnLvsmParams {
     int samples GN_DEFAULT(1);
     GnPrefilterParams prefilter;
     int slope_moment GN_DEFAULT(1);
-    float min_deviation GN_DEFAULT(0.01f);
+    float min_deviation GN_DEFAULT(1.0f);
     float bleeding GN_DEFAULT(0.2f);
 };
 

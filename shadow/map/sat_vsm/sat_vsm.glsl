@@ -99,7 +99,7 @@ float gn_sat_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjecte
                                             gn_sat_cut(v, y, bounds.y, bounds.w), params);
         }
     }
-    float deviation = params.min_deviation / projected.metres_per_depth;
+    float deviation = gn_vsm_deviation(projected, params.min_deviation);
     float rounding = params.table == GN_SAT_UINT32 ? 1.0 / gn_sat_levels(params.max_box) : 0.0;
     float bound = gn_vsm_chebyshev(moments, projected.depth, max(deviation * deviation, rounding));
     return gn_vsm_reduce_bleeding(bound, params.bleeding);

@@ -18,7 +18,7 @@ struct GnSatVsmParams {
     float radius GN_DEFAULT(2.0f);
     int samples GN_DEFAULT(1);
     int slope_moment GN_DEFAULT(1);
-    float min_deviation GN_DEFAULT(0.02f);
+    float min_deviation GN_DEFAULT(2.0f);
     float bleeding GN_DEFAULT(0.2f);
 };
 

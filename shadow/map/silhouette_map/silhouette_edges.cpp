@@ -71,7 +71,8 @@ void main() {
     vec4 a_cs = gn_clip(v, a_ws);
     vec4 b_cs = gn_clip(v, b_ws);
     vec2 t = vec2(0.0, 1.0);
-    clip(t, a_cs.w - 1.0e-4, b_cs.w - 1.0e-4);
+    float least_w = v.eye_ws.w > 0.5 ? 1.0e-5 * v.metres_per_depth : 1.0e-4;
+    clip(t, a_cs.w - least_w, b_cs.w - least_w);
     clip(t, 1.5 * a_cs.w - a_cs.x, 1.5 * b_cs.w - b_cs.x);
     clip(t, 1.5 * a_cs.w + a_cs.x, 1.5 * b_cs.w + b_cs.x);
     clip(t, 1.5 * a_cs.w - a_cs.y, 1.5 * b_cs.w - b_cs.y);

@@ -25,6 +25,12 @@ GN_FN float gn_vsm_chebyshev(vec2 moments, float depth, float min_variance) {
     return distance <= 0.0f ? 1.0f : variance / (variance + distance * distance);
 }
 
+// The least standard deviation assumed, in depth: what the moments of a texel say of a surface is blurred by about the
+// length of a texel.
+GN_FN float gn_vsm_deviation(GnProjected projected, float texels) {
+    return texels * projected.texel_ws / projected.metres_per_depth;
+}
+
 // [Lau08] 3.4: the tail below `amount` is cut off, the rest stretched.
 GN_FN float gn_vsm_reduce_bleeding(float bound, float amount) {
     return clamp((bound - amount) / (1.0f - amount), 0.0f, 1.0f);
@@ -37,7 +43,7 @@ GN_FN float gn_vsm_reduce_bleeding(float bound, float amount) {
 float gn_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
                         GnVsmParams params) {
     vec2 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).xy;
-    float deviation = params.min_deviation / projected.metres_per_depth;
+    float deviation = gn_vsm_deviation(projected, params.min_deviation);
     float bound = gn_vsm_chebyshev(moments, projected.depth, deviation * deviation);
     return gn_vsm_reduce_bleeding(bound, params.bleeding);
 }

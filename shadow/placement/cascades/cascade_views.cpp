@@ -15,10 +15,16 @@ dvec3 axis_of(const GnLight& light) {
     return glm::normalize(dvec3(vec3(light.direction_ws)));
 }
 
+/// Never shorter than the rounding of its ends to float.
+double length_of(Interval interval) {
+    const double rounding = 1e-6 * std::max(std::abs(interval.near), std::abs(interval.far));
+    return std::max({interval.far - interval.near, rounding, 1e-30});
+}
+
 /// A metric interval widened so that a kernel of the guard's reach stays inside the map.
 Interval widened(Interval interval, Guard guard, int resolution) {
     const double share = std::min(0.4, static_cast<double>(guard.texels) / resolution);
-    const double size = std::max(interval.far - interval.near, 1e-6);
+    const double size = length_of(interval);
     const double margin = (size * share + static_cast<double>(guard.metres)) / (1 - 2 * share);
     return {interval.near - margin, interval.far + margin};
 }
@@ -92,6 +98,11 @@ Interval extent_of(const ConvexBody& body, dvec3 axis) {
     return extent;
 }
 
+Interval with_slack(Interval depth, Guard guard, double rounding) {
+    const double slack = 1e-4 * length_of(depth) + rounding;
+    return {depth.near - slack - static_cast<double>(guard.metres), depth.far + slack};
+}
+
 void set_depth_range(GnLightView& view, const GnLight& light, Interval depth) {
     const dvec3 axis = axis_of(light);
     const double metres = depth.far - depth.near;
@@ -117,10 +128,7 @@ GnLightView plain_view(const ConvexBody& body, const LightFrame& frame, int reso
     GnLightView view;
     set_row(view.cs_from_ws, 0, dvec4(frame.x * 2.0, -(u.near + u.far)) / (u.far - u.near));
     set_row(view.cs_from_ws, 1, dvec4(frame.y * 2.0, -(v.near + v.far)) / (v.far - v.near));
-    Interval depth = extent_of(body, frame.z);
-    const double slack = 1e-4 * std::max(depth.far - depth.near, 1e-3);
-    depth = {depth.near - slack - static_cast<double>(guard.metres), depth.far + slack};
-    complete(view, light, resolution, depth);
+    complete(view, light, resolution, with_slack(extent_of(body, frame.z), guard, 0));
     return view;
 }
 

@@ -65,9 +65,7 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
     const ConvexBody all = potential_receivers(input);
     if (params.select == GN_SELECT_PROJECTION && !all.empty()) {
         const GnLight& light = input.light().shape;
-        Interval depth = extent_of(all, dvec3(vec3(light.direction_ws)));
-        const double slack = 1e-4 * std::max(depth.far - depth.near, 1e-3);
-        depth = {depth.near - slack - static_cast<double>(guard_of(recipe).metres), depth.far + slack};
+        const Interval depth = with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(recipe), 0);
         for (GnLightView& view : views.views) {
             set_depth_range(view, light, depth);
         }
@@ -80,11 +78,11 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
     const Camera& camera = input.samples.camera;
     const double aspect = static_cast<double>(input.samples.width) / static_cast<double>(input.samples.height);
     const double spare = params.rate > 1 ? 0.125 : 0.0;
+    const Box scene_ws = seen_bounds(input);
     std::vector<Window> windows;
     for (const Interval& slice : slices) {
         const Sphere sphere = sphere_around(slice, static_cast<double>(camera.yfov), aspect);
-        const Grid grid =
-            grid_of(sphere, input.light().shape, input.scene.bounds_ws, recipe.resolution, guard_of(recipe), spare);
+        const Grid grid = grid_of(sphere, input.light().shape, scene_ws, recipe.resolution, guard_of(recipe), spare);
         const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
         windows.push_back({grid, centre});
         views.views.push_back(params.snap != 0 ? view_of(grid, window_around(grid, centre)) : loose_view(grid, centre));
@@ -162,7 +160,7 @@ std::vector<ParamRow> split_rows() {
         GN_PARAM(GnCascadesParams, alpha, real, 0, 1, "",
                  "Moves the practical split from uniform (0) to logarithmic (1): finer texels near the camera."),
         GN_PARAM(
-            GnCascadesParams, adapted_near, real, 0, 1e6, "m",
+            GnCascadesParams, adapted_near, real, 0, 1e9, "m",
             "Where the logarithm of adapted-near starts: farther ones leave the first slice coarser and the others "
             "finer; 0 gives every slice a ratio of four."),
         GN_PARAM(

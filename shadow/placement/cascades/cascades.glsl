@@ -104,7 +104,7 @@ GN_FN GnCascadesPlace gn_cascades_by_distance(GnPlacementData data, int count, f
     }
     GnCascadesPlace place;
     place.cascade = i;
-    place.position = (view_depth - start) / max(end - start, 1.0e-6f);
+    place.position = (view_depth - start) / max(end - start, 1.0e-6f * end);
     return place;
 }
 

@@ -72,7 +72,7 @@ void main() {
         along[2 * GN_SDSM_TURNS] = dot(u.z_ws.xyz, d_ws);
         grow(own, along);
         // A sample in the transition's band belongs to the next slice too.
-        float position = (distance - r.ends[at]) / max(r.ends[at + 1] - r.ends[at], 1.0e-6);
+        float position = (distance - r.ends[at]) / max(r.ends[at + 1] - r.ends[at], 1.0e-6 * r.ends[at + 1]);
         if (at + 1 < u.params.count && gn_cascades_band(position, 1.01 * width) > 0.0) {
             grow(next, along);
         }

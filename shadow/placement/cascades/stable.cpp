@@ -53,7 +53,7 @@ double first_distance(const Camera& camera, double aspect, const Box& box_ws) {
 
 Interval stable_range(const FrameInput& input, const GnCascadesParams& params, Interval range) {
     const Camera& camera = input.samples.camera;
-    const Box& box_ws = input.scene.bounds_ws;
+    const Box box_ws = seen_bounds(input);
     const double aspect = static_cast<double>(input.samples.width) / static_cast<double>(input.samples.height);
     range.near = std::clamp(first_distance(camera, aspect, box_ws), range.near, range.far / 1.001);
 
@@ -117,9 +117,8 @@ Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, in
 
     // Depth runs over the whole scene: it must not follow the camera either.
     const dvec3 axis = glm::normalize(dvec3(vec3(light.direction_ws)));
-    Interval depth = extent_of(body_of(scene_ws.empty() ? Box{vec3(-1), vec3(1)} : scene_ws), axis);
-    const double slack = 1e-4 * std::max(depth.far - depth.near, 1e-3) + rounding;
-    depth = {depth.near - slack - static_cast<double>(guard.metres), depth.far + slack};
+    const Interval depth =
+        with_slack(extent_of(body_of(scene_ws.empty() ? Box{vec3(-1), vec3(1)} : scene_ws), axis), guard, rounding);
     complete(grid.view, light, resolution, depth);
     if (std::has_single_bit(static_cast<unsigned>(resolution))) {
         // 1.5 x 2^15 texels: a float of that size has a last place of 1/256 of a texel.

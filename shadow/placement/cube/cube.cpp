@@ -108,9 +108,8 @@ struct Shelf {
 };
 
 /// The same face with the half-angle that leaves room for the kernels in a smaller square.
-GnLightView resized(const GnLightView& face, const GnLight& light, const Box& scene_ws, double tangent) {
-    const vec3 eye_ws(light.position_ws);
-    const double far = 1.001 * farthest(scene_ws, eye_ws) + 1e-3;
+GnLightView resized(const GnLightView& face, double far, double tangent) {
+    const vec3 eye_ws(face.eye_ws);
     const dmat4 rows = glm::transpose(dmat4(face.cs_from_ws));
     GnLightView view = square_perspective(eye_ws, vec3(dvec3(rows[3])), vec3(-glm::normalize(dvec3(rows[1]))), tangent,
                                           near_plane(far), far, 1);
@@ -139,8 +138,7 @@ void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& rec
     views.casters.resize(faces);
     for (const std::size_t i : order) {
         const double share = static_cast<double>(guard.texels) / (recipe.resolution >> size_of(i));
-        views.views[i] = resized(views.views[i], input.light().shape, input.scene.bounds_ws,
-                                 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0));
+        views.views[i] = resized(views.views[i], reach_of(input), 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0));
         shelf.put(views.views[i], size_of(i));
         views.casters[i] = halved[i] < 0 ? std::vector<std::uint32_t>{} : all;
     }

@@ -21,7 +21,7 @@ LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
         views.views = {fit_orthographic(body, light, recipe.resolution, guard_of(recipe))};
         return views;
     }
-    const Fitted fitted = fit_perspective(body, light, input.scene.bounds_ws, recipe.resolution, guard_of(recipe));
+    const Fitted fitted = fit_perspective(body, light, recipe.resolution, guard_of(recipe));
     if (fitted.valid) {
         views.views = {fitted.view};
     } else {

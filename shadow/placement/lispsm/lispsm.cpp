@@ -37,10 +37,10 @@ const Part& placement_lispsm() {
                       "How the warp fades as the light turns into the view: by Lloyd's function and never beyond what "
                       "helps, or by the sine of the angle as first published, which is too strong at small angles.",
                       "lloyd", "wsp04"),
-            GN_PARAM(
-                GnLispsmParams, near, real, 0, 1e6, "m",
-                "Pseudo-near plane: a larger one gives far receivers finer texels and those nearer than it coarser "
-                "ones."),
+            GN_PARAM(GnLispsmParams, near, real, 0, 0.1, "of the depth",
+                     "Pseudo-near plane, as a share of the farthest receiver's depth: a larger one gives far receivers "
+                     "finer texels and those nearer than it coarser "
+                     "ones."),
             GN_PARAM(GnLispsmParams, eta, real, -1, 1, "",
                      "Strength of the warp: -1 leaves the fitted map, 0 makes the error along the view equal at both "
                      "ends, 1 favours the nearest receivers as perspective shadow maps do."),

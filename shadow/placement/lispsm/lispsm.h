@@ -10,9 +10,9 @@
 
 struct GnLispsmParams {
     int falloff GN_DEFAULT(GN_LISPSM_LLOYD);
-    float near GN_DEFAULT(1.0f);  ///< metres: receivers nearer than this do not steer the warp
-    float eta GN_DEFAULT(0.0f);   ///< strength where view and light are perpendicular: -1 uniform, 0 even error along
-                                  ///< the view, 1 even error across it
+    float near GN_DEFAULT(0.005f);  ///< of the farthest depth: receivers nearer than this do not steer the warp
+    float eta GN_DEFAULT(0.0f);     ///< strength where view and light are perpendicular: -1 uniform, 0 even error along
+                                    ///< the view, 1 even error across it
 };
 
 #endif

@@ -32,7 +32,7 @@ LightViews place_paraboloid(const FrameInput& input, const Recipe& recipe) {
     const GnLight& light = input.light().shape;
     const vec3 eye_ws(light.position_ws);
     const vec3 axis_ws(light.direction_ws);
-    const double far = 1.001 * farthest(input.scene.bounds_ws, eye_ws) + 1e-3;
+    const double far = reach_of(input);
 
     // Leave room for kernels; a world radius is widest in angle where receivers are nearest and is held to a tenth.
     const Guard guard = guard_of(recipe);

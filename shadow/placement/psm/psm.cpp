@@ -13,7 +13,7 @@ namespace {
 
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
     // The centre of projection is the virtual camera's, n = z_n from the nearest receiver.
-    const double back = static_cast<double>(recipe.of<GnPsmParams>("psm").back);
+    const double back = static_cast<double>(recipe.of<GnPsmParams>("psm").back) * plane.far;
     const double strength = warp::strength_of(1, plane.near + back, plane.far + back, plane.length);
     return warp::view_of(plane, warp::make_warp(plane, strength, 0));
 }
@@ -34,9 +34,10 @@ const Part& placement_psm() {
         p.title = "Perspective shadow maps";
         p.citation = "SD02";
         p.params = param_table<GnPsmParams>({
-            GN_PARAM(GnPsmParams, back, real, 0, 1e6, "m",
-                     "Moves the virtual camera back: distant receivers get finer texels, near ones coarser; 0 spends "
-                     "nearly all of the map on the nearest metres."),
+            GN_PARAM(GnPsmParams, back, real, 0, 1, "of the depth",
+                     "Moves the virtual camera back, by a share of the farthest receiver's depth: distant receivers "
+                     "get finer texels, near ones coarser; 0 spends "
+                     "nearly all of the map on the nearest receivers."),
         });
         p.params_type = "GnPsmParams";
         p.glsl = "shadow/placement/psm/psm.glsl";

@@ -6,7 +6,7 @@
 #include "base/shared.h"
 
 struct GnPsmParams {
-    float back GN_DEFAULT(1.0f);  ///< metres that the virtual camera stands behind the real one
+    float back GN_DEFAULT(0.03f);  ///< of the farthest depth: how far the virtual camera stands behind the real one
 };
 
 #endif

@@ -3,6 +3,9 @@
 //
 // Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
 #include "shadow/placement/receivers.h"
+#include "shadow/scene/clusters.h"
+
+#include <algorithm>
 
 namespace gn {
 namespace {
@@ -22,7 +25,7 @@ LightViews place_single(const FrameInput& input, const Recipe& recipe) {
     // Cover the spot's cone, widened by the kernels' reach.
     const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
     const double share = std::min(0.4, static_cast<double>(guard_of(recipe).texels) / recipe.resolution);
-    const double far = 1.001 * farthest(input.scene.bounds_ws, vec3(light.position_ws)) + 1e-3;
+    const double far = reach_of(input);
     vec3 x;
     vec3 y;
     complete_frame(vec3(light.direction_ws), x, y);
@@ -41,6 +44,21 @@ std::string refuses_single(const Scene&, const Light& light, const Recipe&) {
     return {};
 }
 
+/// Under a sun the map covers all there is: say where most of it is spent on a way to something far off.
+std::string remark_single(const Scene& scene, const Recipe&) {
+    const float most = largest_cluster(scene).diagonal();
+    const float all = scene.bounds_ws.diagonal();
+    const bool sun = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                 [](const Light& light) { return light.shape.kind == GN_LIGHT_DIRECTIONAL; });
+    if (!sun || 4 * most >= all) {
+        return {};
+    }
+    return fmt::format(
+        "placement 'single' spends a sun's map on {:.3g} m, though all but a few triangles lie within {:.3g} m; "
+        "placement=fit leaves out what the camera does not see",
+        all, most);
+}
+
 }  // namespace
 
 namespace parts {
@@ -56,6 +74,7 @@ const Part& placement_single() {
         p.glsl = "shadow/placement/single/single.glsl";
         p.place = place_single;
         p.refuses = refuses_single;
+        p.remark = remark_single;
         return p;
     }();
     return part;

@@ -43,12 +43,12 @@ const Part& placement_tsm() {
         p.title = "Trapezoidal shadow maps";
         p.citation = "MT04";
         p.params = param_table<GnTsmParams>({
+            GN_PARAM(GnTsmParams, near, real, 0, 0.1, "of the depth",
+                     "Pseudo-near plane, as a share of the farthest receiver's depth: a larger one gives far receivers "
+                     "finer texels and those nearer than it coarser "
+                     "ones."),
             GN_PARAM(
-                GnTsmParams, near, real, 0, 1e6, "m",
-                "Pseudo-near plane: a larger one gives far receivers finer texels and those nearer than it coarser "
-                "ones."),
-            GN_PARAM(
-                GnTsmParams, focus, real, 0, 1e6, "m",
+                GnTsmParams, focus, real, 0, 1e9, "m",
                 "Receivers up to this distance share most of the map: a larger one spreads the texels more evenly; "
                 "0 takes the geometric mean of the nearest and the farthest receiver."),
             GN_PARAM(GnTsmParams, share, real, 0.05, 0.95, "of the map",
