@@ -22,7 +22,10 @@ const Camera& Scene::camera(std::string_view view_name) const {
 }
 
 mat4 vs_from_ws(const Camera& camera) {
-    return glm::lookAtRH(camera.position_ws, camera.position_ws + camera.forward_ws, camera.up_ws);
+    // Turn first, then move: a direction added to a far position would be rounded away.
+    mat4 m = glm::lookAtRH(vec3(0.0F), camera.forward_ws, camera.up_ws);
+    m[3] = vec4(dvec4(-dvec3(dmat4(m) * dvec4(dvec3(camera.position_ws), 0.0)), 1.0));
+    return m;
 }
 
 mat4 cs_from_vs(const Camera& camera, float aspect) {
