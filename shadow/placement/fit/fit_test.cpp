@@ -5,12 +5,11 @@
 namespace gn {
 namespace {
 
-/// The camera that the scene has, and one that looks at the same from the other side, lower and nearer.
+/// The camera that the scene has, and one a step aside that is turned a little.
 std::vector<Camera> cameras_of(const Scene& scene) {
     Camera other = scene.cameras[0];
-    const vec3 target = other.position_ws + 4.0F * other.forward_ws;
-    other.position_ws = target + 2.0F * glm::normalize(vec3(other.forward_ws.x, 0.4F, other.forward_ws.z));
-    other.forward_ws = glm::normalize(target - other.position_ws);
+    other.position_ws += vec3(0.2F, 0.1F, -0.3F);
+    other.forward_ws = glm::normalize(other.forward_ws + vec3(0.1F, -0.05F, 0.0F));
     return {scene.cameras[0], other};
 }
 
