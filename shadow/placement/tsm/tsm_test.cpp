@@ -13,7 +13,7 @@ TEST(Tsm, FocusEndsAtItsShareOfTheMap) {
             }
             const Scene scene = test::long_floor(2, 100);
             const auto recipe =
-                fmt::format("hard,placement=tsm,resolution=4096,tsm.share={},tsm.focus={}", share, focus);
+                fmt::format("hard,placement=tsm,tsm.near=0,resolution=4096,tsm.share={},tsm.focus={}", share, focus);
             const GnLightView view = test::place(scene, recipe).views[0];
             const auto at = [&](double z) { return test::uv_of(view, {0, 0, -z}); };
             // Boxes are given a little thickness.
@@ -34,7 +34,7 @@ TEST(Tsm, FarFocusLeavesTheFittedMap) {
 /// The default focus is the geometric mean: the nearer and the farther half of the ratios.
 TEST(Tsm, DefaultFocusIsTheGeometricMean) {
     const Scene scene = test::long_floor(2, 200);
-    const GnLightView view = test::place(scene, "hard,placement=tsm,resolution=4096").views[0];
+    const GnLightView view = test::place(scene, "hard,placement=tsm,tsm.near=0,resolution=4096").views[0];
     const auto at = [&](double z) { return test::uv_of(view, {0, 0, -z}); };
     EXPECT_NEAR(glm::length(at(20) - at(2)) / glm::length(at(200) - at(2)), 0.8, 2e-3);
 }
