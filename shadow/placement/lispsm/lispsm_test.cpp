@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Closed forms of the warp, its fallback, and what a warped map may not break.
+#include "shadow/placement/lispsm/lispsm.h"
 #include "shadow/placement/warp.h"
 #include "shadow/receiver.glsl"
 #include "tests/warp_scene.h"
@@ -206,7 +207,13 @@ TEST(Lispsm, WorstTexelOnScreenIsNeverWorseThanFits) {
     const SceneHandles handles;
     const ViewSamples samples{.width = 256, .height = 256, .camera = camera};
     const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
-    const ConvexBody body = potential_receivers(input, 1, static_cast<double>(camera.far));
+    // Of the receivers that steer the warp: those beyond the pseudo-near plane.
+    double end = 0;
+    for (const dvec3& p : potential_receivers(input).vertices()) {
+        end = std::max(end, glm::dot(p - dvec3(camera.position_ws), dvec3(camera.forward_ws)));
+    }
+    const double first = static_cast<double>(GnLispsmParams{}.near) * end;
+    const ConvexBody body = potential_receivers(input, first, static_cast<double>(camera.far));
     const auto worst = [&](const GnLightView& view) {
         double most = 0;
         for (const dvec3& p : body.vertices()) {
