@@ -108,7 +108,9 @@ TEST_P(TwoSheets, DualStaysWithinItsLimitOfTheNearest) {
         const float upper = depth_at_height(view, 4);
         const float lower = depth_at_height(view, 0);
         const float per_metre = (lower - upper) / 4;
-        EXPECT_NEAR(maps.depth[maps.centre()], std::min(0.5F * (upper + lower), upper + limit * per_metre), 2e-5F)
+        // The texel's ray leans: 0.2 m beside the axis 6 m away shorten at most 2 m by a millimetre.
+        EXPECT_NEAR(maps.depth[maps.centre()], std::min(0.5F * (upper + lower), upper + limit * per_metre),
+                    1.2e-3F * per_metre)
             << limit;
     }
 }

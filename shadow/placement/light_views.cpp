@@ -103,9 +103,6 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
         near = std::min(near, glm::dot(p, axis));
         far = std::max(far, glm::dot(p, axis));
     }
-    const double slack = 1e-4 * length_of(near, far);
-    near -= slack + static_cast<double>(guard.metres);
-    far += slack;
 
     // Choose the least rectangle, widened by the kernels' reach.
     Rectangle r = least_rectangle(points);
@@ -116,6 +113,9 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
 
     GnLightView view;
     const dvec2 size = r.max - r.min;
+    const double slack = 1e-4 * length_of(near, far);
+    near -= slack + static_cast<double>(guard.metres) + room_of(guard) * std::max(size.x, size.y) / resolution;
+    far += slack;
     finish_view(view,
                 {dvec4(right * (2 / size.x), -(r.min.x + r.max.x) / size.x),
                  dvec4(down * (2 / size.y), -(r.min.y + r.max.y) / size.y),
@@ -200,12 +200,12 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolut
     const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
     const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
 
-    // [EASW09] near and far planes of the body; casters before the near plane are clamped to it. Two texels of room let
-    // biased receivers stay behind it, a thousandth covers rounding.
+    // [EASW09] near and far planes of the body; casters before the near plane are clamped to it. A thousandth covers
+    // rounding.
     const dvec2 side = (r.max - r.min) / static_cast<double>(resolution);
     const double texel = std::max(side.x, side.y);
     far *= 1.001;
-    near = std::max(near * (1 - 2 * texel) - 1e-3 * (far - near), near_plane(far));
+    near = std::max(near * (1 - room_of(guard) * texel) - 1e-3 * (far - near), near_plane(far));
     return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};
 }
 

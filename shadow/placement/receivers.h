@@ -43,6 +43,12 @@ ConvexBody potential_receivers(const FrameInput& input, double near, double far)
 /// The kernels' reach of the recipe's map and lookup together.
 Guard guard_of(const Recipe& recipe);
 
+/// Texels between a view's near plane and the nearest receiver: the bias and the cone move what is compared towards the
+/// light, and what casts before the near plane is stored on it. Without this room flat receivers come before it.
+inline double room_of(Guard guard) {
+    return 2 + 2 * static_cast<double>(guard.texels);
+}
+
 /// A rotation-free description of an orthographic or perspective light view.
 struct Fitted {
     GnLightView view;

@@ -98,9 +98,10 @@ Interval extent_of(const ConvexBody& body, dvec3 axis) {
     return extent;
 }
 
-Interval with_slack(Interval depth, Guard guard, double rounding) {
+Interval with_slack(Interval depth, Guard guard, double texel, double rounding) {
     const double slack = 1e-4 * length_of(depth) + rounding;
-    return {depth.near - slack - static_cast<double>(guard.metres), depth.far + slack};
+    const double room = static_cast<double>(guard.metres) + room_of(guard) * texel;
+    return {depth.near - slack - room, depth.far + slack};
 }
 
 void set_depth_range(GnLightView& view, const GnLight& light, Interval depth) {
@@ -125,10 +126,11 @@ GnLightView plain_view(const ConvexBody& body, const LightFrame& frame, int reso
     light.direction_ws = vec4(vec3(frame.z), 0);
     const Interval u = widened(extent_of(body, frame.x), guard, resolution);
     const Interval v = widened(extent_of(body, frame.y), guard, resolution);
+    const double texel = std::max(u.far - u.near, v.far - v.near) / resolution;
     GnLightView view;
     set_row(view.cs_from_ws, 0, dvec4(frame.x * 2.0, -(u.near + u.far)) / (u.far - u.near));
     set_row(view.cs_from_ws, 1, dvec4(frame.y * 2.0, -(v.near + v.far)) / (v.far - v.near));
-    complete(view, light, resolution, with_slack(extent_of(body, frame.z), guard, 0));
+    complete(view, light, resolution, with_slack(extent_of(body, frame.z), guard, texel, 0));
     return view;
 }
 

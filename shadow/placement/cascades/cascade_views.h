@@ -48,8 +48,8 @@ inline dvec4 row_of(const mat4& m, int row) {
 void complete(GnLightView& view, const GnLight& light, int resolution, Interval depth);
 /// Sets the depth axis of an orthographic view, metres along the light.
 void set_depth_range(GnLightView& view, const GnLight& light, Interval depth);
-/// A range of depths with room for rounding at both ends, and for kernels before the nearest.
-Interval with_slack(Interval depth, Guard guard, double rounding);
+/// A range of depths with room for rounding at both ends, and for biases and kernels before the nearest; `texel` in metres.
+Interval with_slack(Interval depth, Guard guard, double texel, double rounding);
 /// Of the points of a body along a direction.
 Interval extent_of(const ConvexBody& body, dvec3 axis);
 

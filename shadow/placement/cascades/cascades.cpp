@@ -27,8 +27,9 @@ bool layered(const Device& device, const GnCascadesParams& params) {
     return wanted && device.has(Feature::layer_from_vertex_shader);
 }
 
-/// One slice's receivers: their box, rectangle of least area, or warped map.
-GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit) {
+/// One slice's receivers: their box, rectangle of least area, or warped map. `near` is the share of the slice's depth that
+/// does not steer a warp.
+GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit, double near) {
     const GnLight& light = input.light().shape;
     const Guard guard = guard_of(recipe);
     if (fit == GN_FIT_PLAIN) {
@@ -38,7 +39,7 @@ GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const Conv
     if (fit != GN_FIT_WARPED) {
         return fitted;
     }
-    const auto plane = warp::plane_of(input, body, fitted, recipe, warp::usual_near);
+    const auto plane = warp::plane_of(input, body, fitted, recipe, near);
     return plane ? warp::even_view(*plane, 0) : fitted;
 }
 
@@ -51,7 +52,9 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
             // Nothing can receive: any view will do.
             body = body_of(Box{input.samples.camera.position_ws - 1.0F, input.samples.camera.position_ws + 1.0F});
         }
-        views.views.push_back(tight_view(input, recipe, body, params.fit));
+        // One pseudo-near plane for the whole view; a tenth of a slice at most.
+        const double near = std::min(warp::usual_near * std::max(slices.back().far / slice.far, 1.0), 0.1);
+        views.views.push_back(tight_view(input, recipe, body, params.fit, near));
     }
 
     // A layered pass draws all views by one pipeline: where one map is warped, all get their depth from fragments.
@@ -65,7 +68,13 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
     const ConvexBody all = potential_receivers(input);
     if (params.select == GN_SELECT_PROJECTION && !all.empty()) {
         const GnLight& light = input.light().shape;
-        const Interval depth = with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(recipe), 0);
+        double texel = 0;
+        for (const GnLightView& view : views.views) {
+            const double least = std::min(glm::length(dvec3(row_of(view.cs_from_ws, 0))),
+                                          glm::length(dvec3(row_of(view.cs_from_ws, 1))));
+            texel = std::max(texel, 2 / least / recipe.resolution);
+        }
+        const Interval depth = with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(recipe), texel, 0);
         for (GnLightView& view : views.views) {
             set_depth_range(view, light, depth);
         }

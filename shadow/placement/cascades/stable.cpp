@@ -117,8 +117,9 @@ Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, in
 
     // Depth runs over the whole scene: it must not follow the camera either.
     const dvec3 axis = glm::normalize(dvec3(vec3(light.direction_ws)));
-    const Interval depth =
-        with_slack(extent_of(body_of(scene_ws.empty() ? Box{vec3(-1), vec3(1)} : scene_ws), axis), guard, rounding);
+    const double texel = 2 * std::max(half.x, half.y) / resolution;
+    const Interval depth = with_slack(extent_of(body_of(scene_ws.empty() ? Box{vec3(-1), vec3(1)} : scene_ws), axis),
+                                      guard, texel, rounding);
     complete(grid.view, light, resolution, depth);
     if (std::has_single_bit(static_cast<unsigned>(resolution))) {
         // 1.5 x 2^15 texels: a float of that size has a last place of 1/256 of a texel.
