@@ -113,8 +113,9 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
 
     GnLightView view;
     const dvec2 size = r.max - r.min;
-    const double slack = 1e-4 * length_of(near, far);
-    near -= slack + static_cast<double>(guard.metres) + room_of(guard) * std::max(size.x, size.y) / resolution;
+    const double texel = std::max(size.x, size.y) / resolution;
+    const double slack = 1e-4 * length_of(near, far) + 0.1 * texel;
+    near -= slack + static_cast<double>(guard.metres) + room_of(guard) * texel;
     far += slack;
     finish_view(view,
                 {dvec4(right * (2 / size.x), -(r.min.x + r.max.x) / size.x),
