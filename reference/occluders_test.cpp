@@ -156,6 +156,195 @@ TEST(Occluders, SamplesOffTheirSurfaceByRoundingAreSeated) {
     EXPECT_EQ(occluders.seat({3, 1e-5, 4}, glm::normalize(dvec3(1, 1, 0))).p_ws.y, 1e-5);
 }
 
+/// A ground of 100 km and a sheet of 2 m that hovers `gap` above it, 40 km from the middle, both turned about the middle.
+struct WideWorld {
+    QuadScene quads;
+    dmat4 turn;
+    WideWorld(double gap, double degrees)
+        : turn(glm::rotate(dmat4(1.0), glm::radians(degrees), glm::normalize(dvec3(1, 0, 0.3)))) {
+        add({-5e4, 0, -5e4}, {0, 0, 1e5}, {1e5, 0, 0});
+        add({4e4 - 1, gap, -1}, {0, 0, 2}, {2, 0, 0});
+    }
+    void add(dvec3 corner, dvec3 a, dvec3 b) {
+        quads.add({}, {}, {});
+        for (std::size_t i = 0; const dvec2 uv : {dvec2(0, 0), dvec2(1, 0), dvec2(1, 1), dvec2(0, 1)}) {
+            quads.scene.positions_ws[quads.scene.positions_ws.size() - 4 + i++] = placed(corner + uv.x * a + uv.y * b);
+        }
+    }
+    [[nodiscard]] vec3 placed(dvec3 p) const { return vec3(turn * dvec4(p, 1.0)); }
+    [[nodiscard]] vec3 turned(vec3 d) const { return vec3(turn * dvec4(dvec3(d), 0.0)); }
+};
+
+TEST(Occluders, ASlabJustAboveAWideGroundCastsItsShadow) {
+    // The turned ground is known to a few millimetres only, half a unit of 4 ... 5 * 10^4; the level one exactly.
+    for (const auto& [degrees, gap] : {std::pair{0.0, 1e-3}, {0.0, 0.05}, {20.0, 0.05}, {75.0, 0.05}}) {
+        const WideWorld world(gap, degrees);
+        const Truth truth(world.quads.scene);
+        Samples under;
+        Samples beside;
+        const vec3 normal = world.turned({0, 1, 0});
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> unit(-0.9, 0.9);
+        for (int i = 0; i < 500; ++i) {
+            under.add(world.placed({4e4 + unit(random), 0, unit(random)}), normal);
+            beside.add(world.placed({4e4 + 3 + unit(random), 0, unit(random)}), normal);
+        }
+        const GnLight sun = sun_towards(world.turned(glm::normalize(vec3(0.1F, 1, 0.2F))));
+        std::size_t counted = 0;
+        EXPECT_EQ(count_dark(truth.trace(under.position_ws, under.normal_ws, sun, {}), counted), 500U)
+            << degrees << " degrees, " << gap << " m";
+        EXPECT_EQ(count_dark(truth.trace(beside.position_ws, beside.normal_ws, sun, {}), counted), 0U)
+            << degrees << " degrees, " << gap << " m";
+    }
+}
+
+TEST(Occluders, CoordinatesWithoutARoundOriginKeepTheirShadows) {
+    // As a file of survey coordinates that nobody moved: units of 1/32 m, a sheet 5 cm above level ground.
+    const vec3 place(412'345, 0, 534'210);
+    QuadScene quads;
+    quads.add(place - vec3(20, 0, 20), {0, 0, 40}, {40, 0, 0});
+    quads.add(place + vec3(-2, 0.05F, -2), {0, 0, 4}, {4, 0, 0});
+    const Truth truth(quads.scene);
+    Samples samples;
+    samples.add(place + vec3(0.5F, 0, 0.25F), {0, 1, 0});
+    samples.add(place + vec3(-5, 0, 0.25F), {0, 1, 0});
+    EXPECT_EQ(truth.trace(samples.position_ws, samples.normal_ws, sun_towards({0.1F, 1, 0}), {}).visibility,
+              (std::vector<float>{0, 1}));
+}
+
+TEST(Occluders, AWideGroundDoesNotReachThroughWhatStandsOnIt) {
+    // Samples on a small block, some of it a millimetre above the ground's plane; every direction of the sky is free.
+    QuadScene quads;
+    quads.add({-5e4F, 0, -5e4F}, {0, 0, 1e5F}, {1e5F, 0, 0});
+    quads.add({100.25F, 1e-3F, 7}, {0, 0, 0.5F}, {0.5F, 0, 0});
+    const Truth truth(quads.scene);
+    const auto on_block = [&](std::size_t index) { return quads.scene.triangles[2 + index]; };
+    for (const float degrees : {0.1F, 1.0F, 10.0F, 60.0F}) {
+        Samples samples;
+        for (std::size_t i = 0; i < 400; ++i) {
+            const float u = static_cast<float>(i % 20) / 20;
+            const float v = (1 - u) * static_cast<float>(i / 20) / 20;
+            samples.add(interpolate(quads.scene, on_block(i % 2), {u, v}), {0, 1, 0});
+        }
+        std::size_t counted = 0;
+        const float angle = glm::radians(degrees);
+        EXPECT_EQ(count_dark(truth.trace(samples.position_ws, samples.normal_ws,
+                                         sun_towards({std::cos(angle), std::sin(angle), 0.1F}), {}),
+                             counted),
+                  0U)
+            << degrees;
+        EXPECT_EQ(counted, 400U);
+    }
+}
+
+TEST(Occluders, AWallOnAWideGroundShadesUpToItsFoot) {
+    QuadScene quads;
+    quads.add({-5e4F, 0, -5e4F}, {0, 0, 1e5F}, {1e5F, 0, 0});
+    quads.add({4e4F, 0, -10}, {0, 0, 20}, {0, 3, 0});
+    const Truth truth(quads.scene);
+    Samples samples;
+    for (const float x : {-1.0F, -0.1F, -0.0078125F, 0.0078125F, 0.1F, 1.0F}) {
+        samples.add({4e4F + x, 0, 0.125F}, {0, 1, 0});
+    }
+    const TruthResult result = truth.trace(samples.position_ws, samples.normal_ws, sun_towards({1, 1, 0}), {});
+    EXPECT_EQ(result.visibility, (std::vector<float>{0, 0, 0, 1, 1, 1}));
+}
+
+TEST(Occluders, TwoSheetsOfOnePlaneDoNotShadowEachOther) {
+    // Coplanar but for rounding, and cut differently: a decal on a turned plane, far from zero.
+    for (const double degrees : {0.0, 17.0, 63.0}) {
+        for (const double away : {0.0, 30.0, 4e4}) {
+            WideWorld world(1, degrees);
+            world.quads = {};
+            world.add({away - 5, 0, -5}, {0, 0, 10}, {10, 0, 0});
+            world.add({away - 2, 0, -3}, {1, 0, 4}, {3, 0, 1});
+            world.add({away - 1, 0, -4.5}, {-1.3, 0, 5.1}, {2.7, 0, 3.3});
+            const vec3 normal = world.turned({0, 1, 0});
+            const Samples samples = random_samples(world.quads.scene, normal, 2000, 9);
+            std::size_t counted = 0;
+            EXPECT_EQ(count_dark(Truth(world.quads.scene)
+                                     .trace(samples.position_ws, samples.normal_ws,
+                                            sun_towards(world.turned({1, 0.3F, 0.2F})), {}),
+                                 counted),
+                      0U)
+                << degrees << " degrees, " << away << " m";
+        }
+    }
+}
+
+TEST(Occluders, ABowlOfFacetsIsLitThroughItsOpening) {
+    // Facets meet at hollow edges. Samples lie on the very edges, where rounding puts half of them behind the neighbour.
+    Scene scene;
+    scene.materials.emplace_back();
+    constexpr uint rings = 20;
+    constexpr uint sides = 64;
+    const vec3 centre(31, 4, -57);
+    for (uint r = 0; r <= rings; ++r) {
+        for (uint s = 0; s < sides; ++s) {
+            const float theta = 0.5F * pi * (0.02F + 0.9F * static_cast<float>(r) / rings);
+            const float phi = 2 * pi * static_cast<float>(s) / sides;
+            scene.positions_ws.push_back(
+                centre + vec3(std::sin(theta) * std::cos(phi), -std::cos(theta), std::sin(theta) * std::sin(phi)));
+        }
+    }
+    for (uint r = 0; r < rings; ++r) {
+        for (uint s = 0; s < sides; ++s) {
+            const uint a = r * sides + s;
+            const uint b = r * sides + (s + 1) % sides;
+            scene.triangles.insert(scene.triangles.end(), {{a, b, b + sides}, {a, b + sides, a + sides}});
+        }
+    }
+    scene.objects.push_back({"", 0, static_cast<uint>(scene.triangles.size()), 0, {}});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Samples samples;
+    for (int i = 0; i < 20000; ++i) {
+        const uvec3 t = scene.triangles[random() % scene.triangles.size()];
+        const vec3 n = glm::cross(scene.positions_ws[t.y] - scene.positions_ws[t.x],
+                                  scene.positions_ws[t.z] - scene.positions_ws[t.x]);
+        const vec3 p = interpolate(scene, t, {unit(random), i % 2 == 0 ? 0.0F : 1e-6F});
+        samples.add(p, glm::normalize(glm::dot(n, centre - p) > 0 ? n : -n));
+    }
+    std::size_t counted = 0;
+    EXPECT_EQ(
+        count_dark(Truth(scene).trace(samples.position_ws, samples.normal_ws, sun_towards({0, 1, 0}), {}), counted),
+        0U);
+    EXPECT_EQ(counted, 20000U);
+}
+
+TEST(Occluders, AWideBlockDoesNotShadowItsOwnEdge) {
+    // Samples on top, millimetres from an edge of 100 km; the sun grazes the top, the wall hangs straight down.
+    QuadScene quads;
+    quads.add({-1e5F, 2, -5e4F}, {0, 0, 1e5F}, {1e5F, 0, 0});
+    quads.add({0, -9, -5e4F}, {0, 0, 1e5F}, {0, 11, 0});
+    const Truth truth(quads.scene);
+    Samples samples;
+    for (int i = 1; i < 500; ++i) {
+        samples.add({-1e-4F * static_cast<float>(i), 2, 0.37F * static_cast<float>(i)}, {0, 1, 0});
+    }
+    std::size_t counted = 0;
+    EXPECT_EQ(
+        count_dark(truth.trace(samples.position_ws, samples.normal_ws, sun_towards({1, 0.01F, 0.3F}), {}), counted),
+        0U);
+    EXPECT_EQ(counted, 499U);
+}
+
+TEST(Occluders, ALampJustAboveItsFloorFarFromZero) {
+    QuadScene quads;
+    const vec3 place(3000, 0, -2000);
+    quads.add(place - vec3(2, 0, 2), {0, 0, 4}, {4, 0, 0});
+    quads.add(place + vec3(0.125F, 0, -1), {0, 0, 2}, {0, 0.5F, 0});
+    GnLight lamp;
+    lamp.kind = GN_LIGHT_POINT;
+    lamp.position_ws = vec4(place + vec3(0, 1e-3F, 0), 1);
+    Samples samples;
+    for (const float x : {-0.25F, -0.0625F, 0.0625F, 0.25F}) {
+        samples.add(place + vec3(x, 0, 0), {0, 1, 0});
+    }
+    EXPECT_EQ(Truth(quads.scene).trace(samples.position_ws, samples.normal_ws, lamp, {}).visibility,
+              (std::vector<float>{1, 1, 1, 0}));
+}
+
 /// A sheet at 1 m with a texture of 2 x 1 texels, opaque at u = 0.25 and clear at u = 0.75.
 QuadScene sheet(AlphaMode mode, float cutoff, float base_alpha, bool repeat) {
     QuadScene quads;
