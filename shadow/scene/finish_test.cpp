@@ -104,6 +104,85 @@ TEST(Finish, FarScenesAreMovedToZeroAndNearOnesAreNot) {
     EXPECT_EQ(near.origin, dvec3(0.0));
 }
 
+/// A cube of 1 m at `place` as text of an .obj file; `more` stands before it.
+std::string cube_text(dvec3 place, const std::string& more) {
+    std::string text = more;
+    for (unsigned i = 0; i < 8; ++i) {
+        text += fmt::format("v {:.3f} {:.3f} {:.3f}\n", place.x + (i & 1U), place.y + (i >> 1U & 1U),
+                            place.z + (i >> 2U & 1U));
+    }
+    for (const char* face :
+         {"-8 -6 -5 -7", "-4 -3 -1 -2", "-8 -7 -3 -4", "-6 -2 -1 -5", "-8 -4 -2 -6", "-7 -5 -1 -3"}) {
+        text += fmt::format("f {}\n", face);
+    }
+    return text;
+}
+
+TEST(Finish, TheOriginBelongsToTheMainMass) {
+    const TempFolder folder;
+    const dvec3 place(412'345.125, 87.5, 5'534'210.25);
+    for (const char* stray : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                              "v 0 0 0\nv 412345 87 5534210\nv 412345 88 5534210\nf 1 2 3\n"}) {
+        const Scene scene = load_scene(folder.write("survey.obj", cube_text(place, stray)));
+        EXPECT_LT(glm::length(scene.origin - place), 16.0) << stray;
+        const vec3 corner = scene.positions_ws[scene.triangles.back().x];
+        EXPECT_LT(glm::length(corner), 32.0F) << stray;
+        const dvec3 in_file = dvec3(corner) + scene.origin - place;
+        EXPECT_LT(glm::length(in_file - glm::round(in_file)), 1e-5) << stray;
+        // What is far away then is the stray, and the view does not care for it.
+        EXPECT_LT(glm::length(scene.cameras[0].position_ws), 64.0F) << stray;
+        EXPECT_LT(scene.cameras[0].far, 64.0F) << stray;
+    }
+}
+
+TEST(Finish, TheOriginGoesToTheCameraWhereTheWorldIsWide) {
+    // One wide ground and a small thing 40 km from the middle: the camera before it needs the digits.
+    const TempFolder folder;
+    folder.write("world.obj", cube_text({40'000, 0.05, 7},
+                                        "v -50000 0 -50000\nv -50000 0 50000\nv 50000 0 50000\n"
+                                        "v 50000 0 -50000\nf 1 2 3 4\n"));
+    const Scene scene = load_scene(folder.write(
+        "world.toml",
+        "[[file]]\npath = 'world.obj'\n[[camera]]\nposition = [40000.5, 2, 12]\ndirection = [0, -0.3, -1]\n"
+        "[[light]]\nkind = 'point'\nposition = [40000.5, 6, 7.5]\n"));
+    EXPECT_LT(glm::length(scene.origin - dvec3(40'000.5, 2, 12)), 8.0);
+    EXPECT_EQ(dvec3(scene.cameras[0].position_ws) + scene.origin, dvec3(40'000.5, 2, 12));
+    EXPECT_EQ(dvec3(vec3(scene.lights[0].shape.position_ws)) + scene.origin, dvec3(40'000.5, 6, 7.5));
+    EXPECT_FALSE(has_note(scene, "cannot be told"));
+
+    // The same made in memory.
+    Scene made = cube(vec3(40'000, 1, 0), 1.0F);
+    made.cameras.push_back({.position_ws = vec3(40'000, 1.75F, 4)});
+    made.positions_ws.insert(made.positions_ws.end(),
+                             {vec3(-5e4F, 0, -5e4F), vec3(-5e4F, 0, 5e4F), vec3(5e4F, 0, 5e4F), vec3(5e4F, 0, -5e4F)});
+    made.triangles.insert(made.triangles.end(), {uvec3(8, 9, 10), uvec3(8, 10, 11)});
+    finish_scene(made);
+    EXPECT_LT(glm::length(made.cameras[0].position_ws), 8.0F);
+    EXPECT_EQ(dvec3(made.cameras[0].position_ws) + made.origin, dvec3(40'000, 1.75, 4));
+}
+
+TEST(Finish, WhatPrecisionCannotReachIsSaidInOneSentence) {
+    // Two cubes of 1 m a thousand kilometres apart: one of them is left with units of 6 cm.
+    Scene scene = cube(vec3(0), 0.5F);
+    const Scene other = cube(vec3(1e6F, 0, 0), 0.5F);
+    scene.positions_ws.insert(scene.positions_ws.end(), other.positions_ws.begin(), other.positions_ws.end());
+    for (const uvec3 t : other.triangles) {
+        scene.triangles.push_back(t + 8U);
+    }
+    finish_scene(scene);
+    std::size_t sentences = 0;
+    for (const std::string& note : scene.notes) {
+        sentences += note.find("cannot be told") != std::string::npos ? 1U : 0U;
+    }
+    EXPECT_EQ(sentences, 1U);
+    EXPECT_TRUE(has_note(scene, "12 triangles"));
+    for (const float place : {0.0F, 20.0F, 1e4F, 1e6F}) {
+        Scene alone = cube(vec3(place, 0, 0), 0.5F);
+        finish_scene(alone);
+        EXPECT_FALSE(has_note(alone, "cannot be told")) << place;
+    }
+}
+
 TEST(Finish, TheDefaultCameraSeesTheWholeScene) {
     Scene scene = cube(vec3(3, 1, 2), 0.5F);
     finish_scene(scene);
@@ -198,6 +277,92 @@ TEST(Camera, DepthIsReversedAndYPointsDown) {
     EXPECT_NEAR(top.y / top.w, -1.0F, 1e-5F);
     const vec4 right = cs_from_ws * vec4(1 + 20 * slope, 2, 3 - 10, 1);
     EXPECT_NEAR(right.x / right.w, 1.0F, 1e-5F);
+}
+
+TEST(Camera, LooksTheSameWayWhereverItStands) {
+    Camera home;
+    home.forward_ws = glm::normalize(vec3(0.3F, -0.4F, -0.8F));
+    const mat4 at_home = vs_from_ws(home);
+    for (const float far : {1e3F, 1e6F, 1e7F, 1e9F}) {
+        Camera away = home;
+        away.position_ws = vec3(far, 0.5F * far, -far);
+        const mat4 there = vs_from_ws(away);
+        for (int column = 0; column < 3; ++column) {
+            EXPECT_EQ(vec3(there[column]), vec3(at_home[column])) << far;
+        }
+        // The camera stands at its own zero, but for the rounding of the matrix: half a unit of each of its terms.
+        EXPECT_LT(glm::length(dvec3(glm::dmat4(there) * dvec4(dvec3(away.position_ws), 1.0))), 4e-7 * double(far));
+    }
+}
+
+/// A triangle a million times as far away as the scene is large.
+void add_stray(Scene& scene, vec3 at) {
+    const auto first = static_cast<uint>(scene.positions_ws.size());
+    scene.positions_ws.insert(scene.positions_ws.end(), {at, at + vec3(0, 1, 0), at + vec3(0, 0, 1)});
+    scene.triangles.emplace_back(first, first + 1, first + 2);
+}
+
+TEST(Camera, ARangeChosenForTheSceneIgnoresStrays) {
+    for (const bool given : {false, true}) {
+        Scene plain = cube(vec3(3, 1, 2), 0.5F);
+        if (given) {
+            plain.cameras.push_back({.position_ws = vec3(3, 1, 5), .near = 0, .far = 0});
+        }
+        Scene with_stray = plain;
+        add_stray(with_stray, vec3(3, 1, -1e6F));
+        finish_scene(plain);
+        finish_scene(with_stray);
+        const Camera& expected = plain.cameras[0];
+        const Camera& camera = with_stray.cameras[0];
+        EXPECT_EQ(camera.position_ws, expected.position_ws);
+        EXPECT_EQ(camera.near, expected.near);
+        EXPECT_EQ(camera.far, expected.far);
+        EXPECT_EQ(with_stray.bounds_ws.min.z, -1e6F);
+        // The camera that looks at the stray cannot show it, and says so; the default one looks elsewhere.
+        EXPECT_EQ(has_note(with_stray, "1 triangle in its view"), given);
+        EXPECT_FALSE(has_note(plain, "in its view"));
+    }
+}
+
+TEST(Camera, AChosenRangeCutsNothingOffInAWideWorld) {
+    // A ground of 100 km; the camera stands 3 m before a box, 40 km from the middle.
+    Scene scene = cube(vec3(40'000, 1, 0), 1.0F);
+    scene.positions_ws.insert(scene.positions_ws.end(),
+                              {vec3(-5e4F, 0, -5e4F), vec3(-5e4F, 0, 5e4F), vec3(5e4F, 0, 5e4F), vec3(5e4F, 0, -5e4F)});
+    scene.triangles.insert(scene.triangles.end(), {uvec3(8, 9, 10), uvec3(8, 10, 11)});
+    scene.cameras.push_back({.position_ws = vec3(40'000, 1.7F, 4), .near = 0, .far = 0});
+    finish_scene(scene);
+    const Camera& camera = scene.cameras[0];
+    EXPECT_LT(camera.near, 1.7F * 0.8F) << "the ground at the picture's lower corners";
+    EXPECT_GT(camera.far, 1e5F);
+    EXPECT_FALSE(has_note(scene, "in its view"));
+}
+
+TEST(Camera, AGivenFarPlaneThatCutsTheViewIsSaid) {
+    Scene scene = cube(vec3(0), 1.0F);
+    scene.cameras.push_back({.name = "short", .position_ws = vec3(0, 0, 5), .near = 0.1F, .far = 4.5F});
+    scene.cameras.push_back({.name = "long", .position_ws = vec3(0, 0, 5), .near = 0.1F, .far = 50});
+    scene.cameras.push_back(
+        {.name = "away", .position_ws = vec3(0, 0, 5), .forward_ws = vec3(0, 0, 1), .near = 0.1F, .far = 4.5F});
+    finish_scene(scene);
+    EXPECT_TRUE(has_note(scene, "Camera 'short' sees to 4.5 m"));
+    EXPECT_FALSE(has_note(scene, "'long'"));
+    EXPECT_FALSE(has_note(scene, "'away'"));
+}
+
+TEST(Camera, ChosenRangesScaleWithTheScene) {
+    const auto range_of = [](float scale) {
+        Scene scene = cube(vec3(0), scale);
+        scene.cameras.push_back({.position_ws = scale * vec3(0, 0, 3), .near = 0, .far = 0});
+        finish_scene(scene);
+        return std::array{scene.cameras[0].near / scale, scene.cameras[0].far / scale,
+                          glm::length(scene.cameras[1].position_ws) / scale, scene.cameras[1].far / scale};
+    };
+    for (const float scale : {1e-7F, 1e-4F, 1e4F, 1e7F}) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            EXPECT_NEAR(range_of(scale)[i], range_of(1)[i], 1e-4F * range_of(1)[i]) << scale << ", value " << i;
+        }
+    }
 }
 
 TEST(LoadScene, UnknownNamesAndFilesAreOneSentence) {
