@@ -73,6 +73,34 @@ TEST(Compare, JsonIsAloneOnStandardOutputAndFollowsTheSchema) {
     EXPECT_GT(hard.at("samples").get<int>(), 1000);
 }
 
+TEST(Compare, FiguresWeightedByLightStandBesideThePlainOnes) {
+    // A lamp a millimetre above a floor: nearly all samples get next to none of its light.
+    const ScratchFolder folder;
+    folder.write("lamp.obj",
+                 "v -5 0 -5\nv -5 0 5\nv 5 0 5\nv 5 0 -5\nv 0.3 0 -5\nv 0.3 0 5\nv 0.3 1 5\nv 0.3 1 -5\n"
+                 "f 1 2 3 4\nf 5 6 7 8\n");
+    folder.write("lamp.toml",
+                 "[[file]]\npath = 'lamp.obj'\n[[camera]]\nposition = [0.5, 2.5, 0.1]\nlook_at = [0.4, 0, 0]\n"
+                 "[[light]]\nkind = 'point'\nposition = [0, 0.001, 0]\nintensity = 100\n");
+    const CommandResult result =
+        run_gnomon(small({"compare", folder / "lamp.toml", "-r", "none", "volumes", "--json", "-"}));
+    ASSERT_EQ(result.status, 0) << result.err;
+    const json document = json::parse(result.out);
+    expect_valid(document);
+    for (const json& run : document.at("runs")) {
+        for (const char* name : {"rmse", "mae", "mismatch", "leak", "acne", "penumbra"}) {
+            ASSERT_TRUE(run.at("weighted").contains(name)) << name;
+            EXPECT_EQ(run.at("weighted").at(name), run.at("lights").at(0).at("weighted").at(name)) << name;
+        }
+        EXPECT_TRUE(run.at("weighted").at("penumbra").is_null()) << "a lamp without size has no penumbra";
+    }
+    // Behind the wall no light is missed that anybody could see: by light, the recipe without shadow errs far less.
+    const json& none = run_of(document, "none");
+    EXPECT_GT(none.at("error").at("rmse").get<double>(), 0.05);
+    EXPECT_LT(none.at("weighted").at("rmse").get<double>(), 0.01 * none.at("error").at("rmse").get<double>());
+    EXPECT_EQ(none.at("weighted").at("leak").get<double>(), 1.0);
+}
+
 TEST(Compare, OverridesReachTheRecipe) {
     const CommandResult result = run_gnomon(small({"compare", "slab", "-r", "hard,resolution=256", "--json", "-"}));
     ASSERT_EQ(result.status, 0) << result.err;
