@@ -54,7 +54,7 @@ struct Occluders::Query {
     RTCIntersectContext context;
     const Occluders* self;
     const Blockers* blockers;
-    dvec3 p_ws;
+    const Seat* seat;
 };
 
 struct Occluders::SeatQuery {
@@ -125,14 +125,16 @@ void Occluders::copy_geometry() {
     rtcReleaseGeometry(geometry);
 }
 
-bool Occluders::coplanar(std::uint32_t triangle, dvec3 p_ws) const {
+bool Occluders::holds(std::uint32_t triangle, dvec3 p_ws) const {
     const uvec3 t = scene_.triangles[triangle];
     const dvec3 a(scene_.positions_ws[t.x]);
     const dvec3 b(scene_.positions_ws[t.y]);
     const dvec3 c(scene_.positions_ws[t.z]);
     const dvec3 normal = glm::cross(b - a, c - a);
-    const double magnitude = std::max({largest(p_ws), largest(a), largest(b), largest(c)});
-    return std::abs(glm::dot(normal, p_ws - a)) <= ulps_at(plane_ulps, magnitude) * glm::length(normal);
+    const double length = glm::length(normal);
+    const dvec3 magnitude = glm::max(glm::max(glm::abs(p_ws), glm::abs(a)), glm::max(glm::abs(b), glm::abs(c)));
+    return !(length > 0.0) ||
+           std::abs(glm::dot(normal / length, p_ws - a)) <= ulps_along(plane_ulps, normal / length, magnitude);
 }
 
 bool Occluders::transparent(std::uint32_t triangle, float u, float v) const {
@@ -182,9 +184,9 @@ void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
         const dvec3 towards_light(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                   RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                   RTCRayN_dir_z(arguments->ray, arguments->N, i));
-        if ((*query.blockers)[query.self->object_[triangle]] == 0 ||
+        if (triangle == query.seat->triangle || (*query.blockers)[query.self->object_[triangle]] == 0 ||
             query.self->seen_from_behind(triangle, towards_light) || query.self->transparent(triangle, u, v) ||
-            query.self->coplanar(triangle, query.p_ws)) {
+            query.self->holds(triangle, query.seat->p_ws)) {
             arguments->valid[i] = 0;
         }
     }
@@ -249,12 +251,12 @@ Seat Occluders::seat(dvec3 p_ws, dvec3 n_ws) const {
     rtcIntersect1(bvh_, &query.context, &ray);
 
     const dvec3 seated = std::isfinite(query.nearest) ? p_ws + query.nearest * n_ws : p_ws;
-    return {seated, vec3(seated + ulps_at(origin_ulps, largest(seated)) * n_ws)};
+    return {seated, vec3(seated + ulps_along(origin_ulps, n_ws, glm::abs(seated)) * n_ws), query.triangle};
 }
 
 template <int Width>
 void Occluders::trace(const Seat& seat, const Blockers& blockers, const int* valid, RTCRayNt<Width>& rays) const {
-    Query query{{}, this, &blockers, seat.p_ws};
+    Query query{{}, this, &blockers, &seat};
     rtcInitIntersectContext(&query.context);
     query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if constexpr (Width == 16) {

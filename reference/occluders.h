@@ -5,13 +5,13 @@
 //
 // Self-intersection. In exact arithmetic a ray that starts on a plane never meets that plane again, so a hit on any
 // triangle whose plane holds p is a rounding error and is rejected, at whatever distance. "Holds" is decided in double
-// precision with a tolerance of plane_ulps units of float precision at the largest coordinate of p and the triangle: the
-// vertices are rounded to float (half a unit an axis) and so is p (after it was seated on its own plane). This is
-// independent of the angle and of the scale, and needs no distance that contact shadows would pay for.
+// precision: the vertices are exact as they stand, but sheets that were meant to be one plane were rounded to floats, half
+// a unit an axis. A plane feels the rounding of an axis by its normal's share of it, so that a level ground of 100 km is
+// exact and a slab a millimetre above it is a caster, while a turned one is known to units of its coordinates. The limit is
+// that of p and of the triangle that is hit; nothing else in the scene matters.
 //
 // What is left are triangles that meet p's plane at an angle, near the edge. There the origin must not sink under p's
-// plane, so it is raised along the geometric normal by origin_ulps units at its largest coordinate: rounding it moves it
-// by at most sqrt(3)/2 units. At 1 m from the world's origin this is half a micrometre.
+// plane, so it is raised along the geometric normal by origin_ulps such units: rounding it moves it by half a unit an axis.
 #pragma once
 
 #include "shadow/scene/scene.h"
@@ -23,7 +23,7 @@
 
 namespace gn {
 
-inline constexpr double plane_ulps = 16;
+inline constexpr double plane_ulps = 4;
 inline constexpr double origin_ulps = 4;
 /// How far a view sample may be from its surface, for seating: interpolated positions err by units of the vertices.
 inline constexpr double seat_ulps = 64;
@@ -34,14 +34,21 @@ inline constexpr double light_ulps = 64;
 inline double ulps_at(double count, double magnitude) {
     return count * 0x1p-23 * magnitude;
 }
+/// What that many units of float precision on every axis of `magnitude` come to along the unit vector n: rounding moves a
+/// plane of that normal no farther. Never less than double precision needs.
+inline double ulps_along(double count, dvec3 n, dvec3 magnitude) {
+    const dvec3 each = glm::abs(n) * magnitude;
+    return ulps_at(count, each.x + each.y + each.z) + 0x1p-40 * std::max({magnitude.x, magnitude.y, magnitude.z});
+}
 inline double largest(dvec3 v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 /// A receiver's point, ready for rays.
 struct Seat {
-    dvec3 p_ws;      ///< on the plane of its triangle
-    vec3 origin_ws;  ///< a hair above it
+    dvec3 p_ws;                                        ///< on the plane of its triangle
+    vec3 origin_ws;                                    ///< a hair above it
+    std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;  ///< its triangle, which never hides it; invalid: none was found
 };
 
 /// Which objects block: one byte an object, 1 where it does.
@@ -72,7 +79,7 @@ class Occluders {
     struct Alpha;
 
     void copy_geometry();
-    [[nodiscard]] bool coplanar(std::uint32_t triangle, dvec3 p_ws) const;
+    [[nodiscard]] bool holds(std::uint32_t triangle, dvec3 p_ws) const;
     [[nodiscard]] bool transparent(std::uint32_t triangle, float u, float v) const;
     [[nodiscard]] bool seen_from_behind(std::uint32_t triangle, dvec3 towards_light) const;
     static void reject(const RTCFilterFunctionNArguments* arguments);

@@ -13,12 +13,13 @@
 
 namespace gn {
 
-/// Where a ray towards the light ends: a little before its surface.
+/// Where a ray towards the light ends: a little before its surface, and never before half of the way.
 inline float ray_end(const LightPoint& point, float largest_origin) {
     if (!std::isfinite(point.distance)) {
         return point.distance;
     }
-    return point.distance - static_cast<float>(ulps_at(light_ulps, point.distance + largest_origin));
+    const auto short_of = static_cast<float>(ulps_at(light_ulps, point.distance + largest_origin));
+    return std::max(point.distance - short_of, 0.5F * point.distance);
 }
 
 /// `start`: metres along the ray that are left out.

@@ -33,10 +33,9 @@ TEST(Places, TheViewIsTheSameAtAnyScale) {
         const CpuSamples other = seen(table(scale));
         std::size_t differing = 0;
         for (std::size_t i = 0; i < one.position_ws.size(); ++i) {
-            const bool same =
-                one.position_ws[i].w == other.position_ws[i].w &&
-                glm::distance(vec3(one.position_ws[i]), vec3(other.position_ws[i]) / scale) < 1e-4F &&
-                glm::distance(vec3(one.normal_ws[i]), vec3(other.normal_ws[i])) < 1e-5F;
+            const bool same = one.position_ws[i].w == other.position_ws[i].w &&
+                              glm::distance(vec3(one.position_ws[i]), vec3(other.position_ws[i]) / scale) < 1e-4F &&
+                              glm::distance(vec3(one.normal_ws[i]), vec3(other.normal_ws[i])) < 1e-5F;
             differing += same ? 0U : 1U;
         }
         // A pixel whose centre lies on an edge may fall to either side: the noise of rasterization.
@@ -56,9 +55,10 @@ TEST(Places, VolumesAreTheTruthBesideAStray) {
         text += fmt::format("f {} {} {}\n", t.x + 4, t.y + 4, t.z + 4);
     }
     folder.write("survey.obj", text);
-    Scene scene = load_scene(folder.write(
-        "survey.toml", "[[file]]\npath = 'survey.obj'\n[[light]]\nkind = 'directional'\ndirection = [0.5, -1, 0.25]\n"
-                       "[[camera]]\nposition = [512348.25, 4, 634217.5]\nlook_at = [512345.25, 0.5, 634210.5]\n"));
+    Scene scene = load_scene(
+        folder.write("survey.toml",
+                     "[[file]]\npath = 'survey.obj'\n[[light]]\nkind = 'directional'\ndirection = [0.5, -1, 0.25]\n"
+                     "[[camera]]\nposition = [512348.25, 4, 634217.5]\nlook_at = [512345.25, 0.5, 634210.5]\n"));
     for (const char* recipe : {"volumes", "none", "pcf"}) {
         const test::Comparison c = test::compare(scene, recipe, {.width = 128, .height = 128, .samples = 1});
         const test::Comparison plain = test::compare(table(1), recipe, {.width = 128, .height = 128, .samples = 1});

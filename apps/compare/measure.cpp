@@ -5,6 +5,7 @@
 #include "apps/compare/pictures.h"
 #include "apps/output.h"
 #include "shadow/lookup/show.h"
+#include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
 
 #include <algorithm>
@@ -118,6 +119,8 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             const TruthResult& truth = view.truth(l);
             light.errors =
                 visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
+            weigh_errors(light.errors, frame.visibility[l].values, truth.visibility, truth.counted,
+                         unshadowed_illuminance(frame.samples, view.scene().lights[l].shape));
             const std::vector<std::uint8_t> explained = explained_acne(view, bench, recipe, frame.visibility[l], l);
             if (!explained.empty()) {
                 split_acne(light.errors, frame.visibility[l].values, truth.visibility, truth.counted, explained);

@@ -29,6 +29,22 @@ ordered_json errors_json(const Errors& errors) {
     return json;
 }
 
+ordered_json weighted_json(const WeightedErrors& errors) {
+    ordered_json json = ordered_json::object();
+    for (const WeightedInfo& metric : weighted_metrics()) {
+        json[std::string(metric.name)] = number(errors.*metric.value);
+    }
+    return json;
+}
+
+WeightedErrors weighted_from(const ordered_json& json) {
+    WeightedErrors errors;
+    for (const WeightedInfo& metric : weighted_metrics()) {
+        errors.*metric.value = optional_number(json.at(std::string(metric.name)));
+    }
+    return errors;
+}
+
 Errors errors_from(const ordered_json& json, std::size_t samples) {
     Errors errors;
     errors.samples = samples;
@@ -51,7 +67,8 @@ ordered_json light_json(const LightResult& light, bool for_report) {
                       {"status", light.status},
                       {"reason", light.reason},
                       {"samples", light.errors.samples},
-                      {"error", errors_json(light.errors)}};
+                      {"error", errors_json(light.errors)},
+                      {"weighted", weighted_json(light.errors.weighted)}};
     if (for_report) {
         json["error_map"] = light.error_map;
     }
@@ -165,6 +182,7 @@ ordered_json run_json(const RunResult& run, bool for_report) {
                       {"reason", run.reason},
                       {"samples", run.errors.samples},
                       {"error", errors_json(run.errors)},
+                      {"weighted", weighted_json(run.errors.weighted)},
                       {"lights", lights},
                       {"time_ms", times_json(run)},
                       {"memory", memory_json(run)}};
@@ -187,9 +205,11 @@ RunResult run_from_json(const ordered_json& json) {
     run.reason = json.at("reason");
     // The figures.
     run.errors = errors_from(json.at("error"), json.at("samples"));
+    run.errors.weighted = weighted_from(json.at("weighted"));
     for (const ordered_json& light : json.at("lights")) {
         run.lights.push_back({light.at("name"), light.at("status"), light.at("reason"),
                               errors_from(light.at("error"), light.at("samples")), light.at("error_map")});
+        run.lights.back().errors.weighted = weighted_from(light.at("weighted"));
     }
     run.shadow = spread_from(json.at("time_ms").at("shadow"));
     run.frame = spread_from(json.at("time_ms").at("frame"));

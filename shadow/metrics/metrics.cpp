@@ -28,6 +28,29 @@ struct Sum {
     }
 };
 
+/// The same where every sample has a weight.
+struct WeightedSum {
+    double weight = 0, absolute = 0, squares = 0;
+    void add(double difference, double w) {
+        weight += w;
+        absolute += w * std::abs(difference);
+        squares += w * difference * difference;
+    }
+    [[nodiscard]] std::optional<double> over_weight(double sum) const {
+        return weight > 0.0 ? std::optional(sum / weight) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<double> mean() const { return over_weight(absolute); }
+    [[nodiscard]] std::optional<double> root_mean_square() const {
+        return weight > 0.0 ? std::optional(std::sqrt(squares / weight)) : std::nullopt;
+    }
+};
+
+/// T - R, where a T that is not a number is wholly wrong.
+double difference_of(float technique, double r) {
+    const double wrong = r < 0.5 ? 1.0 : 0.0;
+    return (std::isfinite(technique) ? static_cast<double>(technique) : wrong) - r;
+}
+
 /// The mean of one figure over lights, each weighted by the samples that it was taken from.
 std::optional<double> weighted_mean(std::span<const Errors> lights, std::optional<double> Errors::*value,
                                     std::size_t Errors::*weight, bool squared) {
@@ -45,6 +68,35 @@ std::optional<double> weighted_mean(std::span<const Errors> lights, std::optiona
         return std::nullopt;
     }
     return squared ? std::sqrt(sum / weights) : sum / weights;
+}
+
+/// Lights pooled by the light that they give.
+WeightedErrors pool_weighted(std::span<const Errors> lights) {
+    using Figure = std::optional<double> WeightedErrors::*;
+    using Weight = double WeightedErrors::*;
+    WeightedErrors pooled;
+    const auto mean = [&](Figure figure, Weight weight, bool squared) {
+        WeightedSum sum;
+        for (const Errors& light : lights) {
+            if (const std::optional<double>& value = light.weighted.*figure) {
+                sum.add(*value, light.weighted.*weight);
+            }
+        }
+        pooled.*figure = squared ? sum.root_mean_square() : sum.mean();
+    };
+    mean(&WeightedErrors::rmse, &WeightedErrors::all, true);
+    mean(&WeightedErrors::mae, &WeightedErrors::all, false);
+    mean(&WeightedErrors::mismatch, &WeightedErrors::all, false);
+    mean(&WeightedErrors::leak, &WeightedErrors::dark, false);
+    mean(&WeightedErrors::acne, &WeightedErrors::lit, false);
+    mean(&WeightedErrors::penumbra, &WeightedErrors::partial, true);
+    for (const Errors& light : lights) {
+        pooled.all += light.weighted.all;
+        pooled.dark += light.weighted.dark;
+        pooled.lit += light.weighted.lit;
+        pooled.partial += light.weighted.partial;
+    }
+    return pooled;
 }
 
 }  // namespace
@@ -88,9 +140,7 @@ Errors visibility_errors(std::span<const float> technique, std::span<const float
             continue;
         }
         const auto r = static_cast<double>(reference[i]);
-        const double wrong = r < 0.5 ? 1.0 : 0.0;
-        const double t = std::isfinite(technique[i]) ? static_cast<double>(technique[i]) : wrong;
-        const double difference = t - r;
+        const double difference = difference_of(technique[i], r);
         all.add(difference);
         (r <= 0.0 ? dark : r >= 1.0 ? lit : partial).add(difference);
         mismatched += std::abs(difference) > 0.5 ? 1U : 0U;
@@ -112,6 +162,46 @@ Errors visibility_errors(std::span<const float> technique, std::span<const float
     errors.penumbra = partial.root_mean_square();
     errors.edge = all.over_count(static_cast<double>(edge));
     return errors;
+}
+
+std::span<const WeightedInfo> weighted_metrics() {
+    static constexpr std::array<WeightedInfo, 6> metrics{{{"rmse", &WeightedErrors::rmse},
+                                                          {"mae", &WeightedErrors::mae},
+                                                          {"mismatch", &WeightedErrors::mismatch},
+                                                          {"leak", &WeightedErrors::leak},
+                                                          {"acne", &WeightedErrors::acne},
+                                                          {"penumbra", &WeightedErrors::penumbra}}};
+    return metrics;
+}
+
+void weigh_errors(Errors& errors, std::span<const float> technique, std::span<const float> reference,
+                  std::span<const std::uint8_t> counted, std::span<const float> weights) {
+    GN_CHECK_EQ(technique.size(), reference.size());
+    GN_CHECK_EQ(weights.size(), reference.size());
+    WeightedSum all;
+    WeightedSum dark;
+    WeightedSum lit;
+    WeightedSum partial;
+    double mismatched = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        const auto weight = static_cast<double>(weights[i]);
+        if (counted[i] == 0 || !(weight > 0.0) || !std::isfinite(weight)) {
+            continue;
+        }
+        const auto r = static_cast<double>(reference[i]);
+        const double difference = difference_of(technique[i], r);
+        all.add(difference, weight);
+        (r <= 0.0 ? dark : r >= 1.0 ? lit : partial).add(difference, weight);
+        mismatched += std::abs(difference) > 0.5 ? weight : 0.0;
+    }
+    WeightedErrors& weighted = errors.weighted;
+    weighted = {.all = all.weight, .dark = dark.weight, .lit = lit.weight, .partial = partial.weight};
+    weighted.rmse = all.root_mean_square();
+    weighted.mae = all.mean();
+    weighted.mismatch = all.over_weight(mismatched);
+    weighted.leak = dark.mean();
+    weighted.acne = lit.mean();
+    weighted.penumbra = partial.root_mean_square();
 }
 
 void split_acne(Errors& errors, std::span<const float> technique, std::span<const float> reference,
@@ -166,6 +256,7 @@ Errors pool(std::span<const Errors> lights) {
     pooled.edge = weighted_mean(lights, &Errors::edge, &Errors::samples, false);
     pooled.against = weighted_mean(lights, &Errors::against, &Errors::samples, true);
     pooled.against_mean = weighted_mean(lights, &Errors::against_mean, &Errors::samples, false);
+    pooled.weighted = pool_weighted(lights);
     return pooled;
 }
 

@@ -12,6 +12,18 @@
 
 namespace gn {
 
+/// The same figures where each sample counts by the light that it would get unshadowed: what reaches the eye. A lamp just
+/// above a floor, or a grazing sun, gives most samples next to nothing.
+struct WeightedErrors {
+    std::optional<double> rmse, mae, mismatch, leak, acne, penumbra;
+    double all = 0, dark = 0, lit = 0, partial = 0;  ///< sums of the weights behind them
+};
+struct WeightedInfo {
+    std::string_view name;
+    std::optional<double> WeightedErrors::*value;
+};
+std::span<const WeightedInfo> weighted_metrics();
+
 /// Every figure; a value that has no samples is absent, never 0.
 struct Errors {
     std::size_t samples = 0;
@@ -19,6 +31,7 @@ struct Errors {
         against, against_mean;
     std::size_t dark = 0, lit = 0,
                 partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
+    WeightedErrors weighted;
 };
 
 struct MetricInfo {
@@ -33,6 +46,9 @@ std::span<const MetricInfo> all_metrics();
 /// number counts as wholly wrong.
 Errors visibility_errors(std::span<const float> technique, std::span<const float> reference,
                          std::span<const std::uint8_t> counted, int width, int height);
+/// Fills `weighted`: weights[i] >= 0, the unshadowed illuminance of sample i, lux, its cosine included.
+void weigh_errors(Errors& errors, std::span<const float> technique, std::span<const float> reference,
+                  std::span<const std::uint8_t> counted, std::span<const float> weights);
 /// Fills `self_shadow`: the part of `acne` that no shadow nearby explains, over the same lit samples. `beside_shadow` has
 /// 1 where a shadow's edge lies within the technique's reach.
 void split_acne(Errors& errors, std::span<const float> technique, std::span<const float> reference,

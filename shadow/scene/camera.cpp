@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The camera's matrices and default cameras.
 #include "base/error.h"
+#include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
 
 #include <algorithm>
@@ -44,88 +45,93 @@ mat4 cs_from_vs(const Camera& camera, float aspect) {
 
 namespace {
 
-struct Weighted {
-    float value, weight;
+/// What of the scene lies in a camera's square picture, along its axis.
+struct Seen {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t beyond = 0;  ///< triangles that lie wholly beyond the far plane
 };
 
-// The values below and above which 2 % of the weight lies.
-void trim_axis(std::vector<Weighted>& samples, float& low, float& high) {
-    std::sort(samples.begin(), samples.end(), [](Weighted a, Weighted b) { return a.value < b.value; });
-    double total = 0.0;
-    for (const Weighted s : samples) {
-        total += static_cast<double>(s.weight);
-    }
-    double sum = 0.0;
-    bool below = true;
-    for (const Weighted s : samples) {
-        sum += static_cast<double>(s.weight);
-        if (below && sum > 0.02 * total) {
-            low = s.value;
-            below = false;
+/// The part of a polygon where dot(plane, (p, 1)) >= 0.
+std::vector<dvec3> cut(const std::vector<dvec3>& polygon, dvec4 plane) {
+    std::vector<dvec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const dvec3 a = polygon[i];
+        const dvec3 b = polygon[(i + 1) % polygon.size()];
+        const double da = glm::dot(plane, dvec4(a, 1.0));
+        const double db = glm::dot(plane, dvec4(b, 1.0));
+        if (da >= 0.0) {
+            kept.push_back(a);
         }
-        if (sum >= 0.98 * total) {
-            high = s.value;
-            return;
+        if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
+            kept.push_back(a + (b - a) * (da / (da - db)));
         }
     }
+    return kept;
 }
 
-float triangle_size(const Scene& scene, uvec3 t) {
-    const vec3 a = scene.positions_ws[t.x];
-    const glm::dvec3 ab(scene.positions_ws[t.y] - a);
-    const glm::dvec3 ac(scene.positions_ws[t.z] - a);
-    return static_cast<float>(std::sqrt(0.5 * glm::length(glm::cross(ab, ac))));
-}
-
-}  // namespace
-
-Box main_bounds(const Scene& scene) {
-    // Weigh each triangle by its size (the root of its area), at most a quarter percent of the whole, so that neither a crumb far
-    // away nor one vast ground plane decides what the picture shows. A hundred thousand triangles are sample enough.
-    const std::size_t step = std::max<std::size_t>(1, scene.triangles.size() / 100'000);
-    double total = 0.0;
-    for (std::size_t i = 0; i < scene.triangles.size(); i += step) {
-        total += static_cast<double>(triangle_size(scene, scene.triangles[i]));
-    }
-    const auto heaviest = static_cast<float>(0.0025 * total);
-
-    // Trim 2 % at both ends of each axis.
-    Box box = scene.bounds_ws;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<Weighted> samples;
-        for (std::size_t i = 0; i < scene.triangles.size(); i += step) {
-            const float weight = std::min(triangle_size(scene, scene.triangles[i]), heaviest);
-            for (int corner = 0; corner < 3; ++corner) {
-                samples.push_back({scene.positions_ws[scene.triangles[i][corner]][axis], weight});
-            }
+Seen look(const Scene& scene, const Camera& camera) {
+    // In the camera's own space, scaled so that the picture's sides are the planes |x| = |y| = -z.
+    const dvec3 back = -dvec3(camera.forward_ws);
+    const dvec3 right = glm::normalize(glm::cross(dvec3(camera.up_ws), back));
+    const dvec3 up = glm::cross(back, right);
+    const double scale = 1.0 / std::tan(0.5 * static_cast<double>(camera.yfov));
+    const auto seen_from = [&](vec3 p_ws) {
+        const dvec3 p = dvec3(p_ws) - dvec3(camera.position_ws);
+        return dvec3(scale * glm::dot(right, p), scale * glm::dot(up, p), -glm::dot(back, p));
+    };
+    static constexpr std::array<dvec4, 4> sides{{{1, 0, 1, 0}, {-1, 0, 1, 0}, {0, 1, 1, 0}, {0, -1, 1, 0}}};
+    Seen seen;
+    for (const uvec3 t : scene.triangles) {
+        // Most triangles lie beyond one side as a whole.
+        const std::array corners{seen_from(scene.positions_ws[t.x]), seen_from(scene.positions_ws[t.y]),
+                                 seen_from(scene.positions_ws[t.z])};
+        const auto outside = [&](dvec4 side) {
+            return std::all_of(corners.begin(), corners.end(),
+                               [&](const dvec3& p) { return glm::dot(side, dvec4(p, 1.0)) < 0.0; });
+        };
+        if (std::any_of(sides.begin(), sides.end(), outside)) {
+            continue;
         }
-        trim_axis(samples, box.min[axis], box.max[axis]);
+        std::vector<dvec3> polygon(corners.begin(), corners.end());
+        for (const dvec4 side : sides) {
+            polygon = polygon.empty() ? polygon : cut(polygon, side);
+        }
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const dvec3& p : polygon) {
+            nearest = std::min(nearest, p.z);
+        }
+        seen.nearest = std::min(seen.nearest, nearest);
+        seen.beyond += std::isfinite(nearest) && nearest > static_cast<double>(camera.far) ? 1U : 0U;
     }
-
-    // Where trimming takes little away there are no outliers: show everything.
-    if (box.empty() || box.diagonal() > 0.7F * scene.bounds_ws.diagonal()) {
-        return scene.bounds_ws;
-    }
-    const vec3 margin(0.1F * box.extent());
-    return {box.min - margin, box.max + margin};
+    return seen;
 }
 
-namespace {
-
-// Depth range for everything in `bounds` as seen by the camera.
-void choose_range(Camera& camera, const Box& bounds, bool near_given, bool far_given) {
+// Depth range for everything in `bounds` as seen by the camera. What stands nearer than a near plane that suits the whole
+// would be cut off: then half the way to it serves, down to 2^-20 of the far plane; reversed depth in floats bears it.
+void choose_range(Camera& camera, const Scene& scene, const Box& bounds, bool near_given, bool far_given) {
     float farthest = 0.0F;
     for (const vec3 corner : bounds.corners()) {
         farthest = std::max(farthest, glm::distance(corner, camera.position_ws));
     }
     const vec3 nearest = glm::clamp(camera.position_ws, bounds.min, bounds.max);
     const float distance = glm::distance(nearest, camera.position_ws);
-    farthest = std::max(farthest, 1e-3F);
     if (!far_given) {
-        camera.far = 1.05F * farthest;
+        camera.far = farthest > 0.0F ? 1.05F * farthest : 1.0F;
     }
     if (!near_given) {
         camera.near = std::max(0.5F * std::min(distance, camera.far), 1e-4F * camera.far);
+        const double seen = look(scene, camera).nearest;
+        if (0.5 * seen < static_cast<double>(camera.near)) {
+            camera.near = std::max(static_cast<float>(0.5 * seen), 0x1p-20F * camera.far);
+        }
+    }
+}
+
+void note_cut(Scene& scene, const Camera& camera) {
+    if (const std::size_t beyond = look(scene, camera).beyond; beyond > 0) {
+        add_note(scene.notes,
+                 fmt::format("Camera '{}' sees to {:.4g} m and leaves out {} triangle{} in its view beyond.",
+                             camera.name, camera.far, beyond, beyond == 1 ? "" : "s"));
     }
 }
 
@@ -143,11 +149,11 @@ Camera frame_box(const Box& box) {
         const float side = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
         distance = std::max(distance, glm::dot(offset, towards) + side / slope);
     }
-    camera.position_ws = box.centre() + towards * std::max(1.05F * distance, 1e-3F);
+    camera.position_ws = box.centre() + towards * (1.05F * distance);
     return camera;
 }
 
-void repair_camera(Camera& camera, const Box& bounds, std::vector<std::string>& notes) {
+void repair_camera(Camera& camera, const Scene& scene, const Box& bounds, std::vector<std::string>& notes) {
     // Pose.
     if (!finite(camera.position_ws) || glm::any(glm::greaterThan(glm::abs(camera.position_ws), vec3(1e9F)))) {
         camera.position_ws = vec3(0.0F);
@@ -175,7 +181,7 @@ void repair_camera(Camera& camera, const Box& bounds, std::vector<std::string>& 
     if (!near_given || !far_given) {
         // Zero means that the file left the choice to us; anything else was a mistake.
         const bool mistake = (!near_given && camera.near != 0.0F) || (!far_given && camera.far != 0.0F);
-        choose_range(camera, bounds, near_given, far_given);
+        choose_range(camera, scene, bounds, near_given, far_given);
         camera.near = std::min(camera.near, 0.5F * camera.far);
         if (mistake) {
             add_note(notes, fmt::format("Camera '{}' had no usable depth range and sees from {:.4g} to {:.4g} m.",
@@ -211,17 +217,17 @@ void complete_cameras(Scene& scene) {
     }
 
     // An empty scene is seen as if a unit box stood at the origin.
-    Box bounds = scene.bounds_ws;
+    Box bounds = bounds_without_strays(scene);
     if (bounds.empty()) {
         bounds.grow(vec3(-0.5F));
         bounds.grow(vec3(0.5F));
     }
     for (Camera& camera : scene.cameras) {
-        repair_camera(camera, bounds, scene.notes);
+        repair_camera(camera, scene, bounds, scene.notes);
     }
     for (CameraPath& path : scene.paths) {
         for (Camera& frame : path.frames) {
-            repair_camera(frame, bounds, scene.notes);
+            repair_camera(frame, scene, bounds, scene.notes);
         }
     }
     // The whole from outside: the default view of a bare model, one more view, `overview`, of any other.
@@ -232,7 +238,10 @@ void complete_cameras(Scene& scene) {
     if (bare || (!taken && !scene.closed_form && !scene.bounds_ws.empty())) {
         scene.cameras.push_back(frame_box(scene.bounds_ws.empty() ? bounds : main_bounds(scene)));
         scene.cameras.back().name = bare ? "main" : "overview";
-        choose_range(scene.cameras.back(), bounds, false, false);
+        choose_range(scene.cameras.back(), scene, bounds, false, false);
+    }
+    for (const Camera& camera : scene.cameras) {
+        note_cut(scene, camera);
     }
 }
 

@@ -2,6 +2,7 @@
 // Completing a scene: what every later stage may rely on is established here.
 #include "base/error.h"
 #include "shadow/scene/clusters.h"
+#include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
 
 #include <algorithm>
@@ -123,14 +124,13 @@ void clean_vertices(Scene& scene) {
 
 // For scenes made in memory; loaders chose the origin before they rounded to float.
 void recentre(Scene& scene) {
-    Box bounds;
-    for (const Object& object : scene.objects) {
-        bounds.grow(object.bounds_ws);
-    }
+    const Box bounds = bounds_without_strays(scene);
     if (scene.closed_form || bounds.empty()) {
         return;
     }
-    const vec3 shift(choose_origin(dvec3(bounds.min), dvec3(bounds.max)));
+    const dvec3 camera_ws = scene.cameras.empty() ? dvec3(0.0) : dvec3(scene.cameras.front().position_ws);
+    const vec3 shift(choose_origin(triangle_samples(scene), dvec3(bounds.min), dvec3(bounds.max),
+                                   scene.cameras.empty() ? nullptr : &camera_ws));
     if (shift == vec3(0.0F)) {
         return;
     }
@@ -206,6 +206,7 @@ void finish_scene(Scene& scene) {
                  fmt::format("The scene lies far from zero; coordinates are relative to ({:.10g}, {:.10g}, {:.10g}).",
                              scene.origin.x, scene.origin.y, scene.origin.z));
     }
+    note_lost_precision(scene);
     complete_cameras(scene);
     add_default_sun(scene);
     complete_lights(scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From instances in double precision to one flat scene of floats in world space.
 #include "base/error.h"
+#include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
 
 #include <cmath>
@@ -18,17 +19,6 @@ void add_note(std::vector<std::string>& notes, std::string note) {
 
 void note_lost_mask(std::vector<std::string>& notes, const std::string& material) {
     add_note(notes, fmt::format("Material '{}' has lost its mask: where it had holes it is solid.", material));
-}
-
-dvec3 choose_origin(dvec3 min, dvec3 max) {
-    const dvec3 centre = 0.5 * (min + max);
-    const double extent = glm::length(max - min);
-    const double distance = glm::length(centre);
-    if (!(distance > 16.0 * extent) || !std::isfinite(distance)) {
-        return dvec3(0.0);
-    }
-    const double step = extent > 0.0 ? std::exp2(std::floor(std::log2(extent))) : 0.0;
-    return step > 0.0 ? glm::round(centre / step) * step : centre;
 }
 
 namespace {
@@ -50,20 +40,57 @@ void check_size(const Model& model) {
     }
 }
 
-// The origin from the exact positions, so that subtracting it comes before rounding.
-dvec3 find_origin(const Model& model) {
-    dvec3 min(std::numeric_limits<double>::max());
-    dvec3 max(std::numeric_limits<double>::lowest());
+std::array<dvec3, 3> corners_of(const Model& model, const Instance& instance, uvec3 t) {
+    const Mesh& mesh = model.meshes[instance.mesh];
+    const auto corner = [&](uint v) { return dvec3(instance.ws_from_os * dvec4(mesh.positions_os.at(v), 1.0)); };
+    return {corner(t.x), corner(t.y), corner(t.z)};
+}
+
+template <class Visit>
+void visit_triangles(const Model& model, std::size_t step, const Visit& visit) {
+    std::size_t index = 0;
     for (const Instance& instance : model.instances) {
-        for (const dvec3& p_os : model.meshes[instance.mesh].positions_os) {
-            const dvec3 p_ws(instance.ws_from_os * dvec4(p_os, 1.0));
-            if (finite_d(p_ws)) {
-                min = glm::min(min, p_ws);
-                max = glm::max(max, p_ws);
+        const Mesh& mesh = model.meshes[instance.mesh];
+        for (const uvec3 t : mesh.triangles) {
+            const bool inside = std::max({t.x, t.y, t.z}) < mesh.positions_os.size();
+            if (index++ % step == 0 && inside) {
+                const std::array<dvec3, 3> corners = corners_of(model, instance, t);
+                if (finite_d(corners[0]) && finite_d(corners[1]) && finite_d(corners[2])) {
+                    visit(corners);
+                }
             }
         }
     }
-    return min.x > max.x ? dvec3(0.0) : choose_origin(min, max);
+}
+
+// The origin from the exact positions, so that subtracting it comes before rounding.
+dvec3 find_origin(const Model& model) {
+    // Learn from a part of the triangles where the main mass is.
+    std::size_t count = 0;
+    for (const Instance& instance : model.instances) {
+        count += model.meshes[instance.mesh].triangles.size();
+    }
+    std::vector<TriangleSample> samples;
+    visit_triangles(model, std::max<std::size_t>(1, count / most_triangle_samples), [&](const auto& corners) {
+        samples.push_back(
+            {corners, std::sqrt(0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])))});
+    });
+    const Fence fence = find_fence(samples);
+
+    // Bound all that belongs to it.
+    dvec3 min(std::numeric_limits<double>::max());
+    dvec3 max(std::numeric_limits<double>::lowest());
+    visit_triangles(model, 1, [&](const auto& corners) {
+        const dvec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+        const dvec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+        if (fence.meets(low, high)) {
+            min = glm::min(min, low);
+            max = glm::max(max, high);
+        }
+    });
+    return min.x > max.x
+               ? dvec3(0.0)
+               : choose_origin(samples, min, max, model.cameras.empty() ? nullptr : &model.cameras.front().position_ws);
 }
 
 // Normals go with the cofactors, which unlike the inverse exist for every matrix; a zero result is completed later.

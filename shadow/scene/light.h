@@ -43,10 +43,16 @@ GN_FN vec3 gn_to_light(GnLight light, vec3 p_ws) {
                                                     : normalize(vec3(light.position_ws) - p_ws);
 }
 
+/// Least cosine of incidence of a sample that counts. Below it, within 0.056 degrees of edge-on, the light adds less than a
+/// thousandth of what it adds to a surface that faces it, and rounding decides whether it adds any: the cosine of 90
+/// degrees in floats is 4e-8, a normal from rounded vertices errs by more. A power of two, so that every side of the
+/// comparison rounds alike.
+const float gn_least_cosine = 0.0009765625f;
+
 /// Whether a view sample counts for the light: faces it, lies in its range and its cone (or before the rectangle).
 GN_FN bool gn_counted(GnLight light, vec3 p_ws, vec3 n_ws) {
     vec3 to_light = gn_to_light(light, p_ws);
-    if (!(dot(n_ws, to_light) > 0.0f)) {
+    if (!(dot(n_ws, to_light) >= gn_least_cosine)) {
         return false;
     }
     if (light.kind == uint(GN_LIGHT_DIRECTIONAL)) {

@@ -71,11 +71,6 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model);
 /// Writes every instance in world space. Throws Error beyond max_triangles or max_instances, before it allocates.
 Scene flatten(const Model& model);
 
-/// Where zero should lie for coordinates in [min, max]: zero itself unless the box lies more than 16 of its own
-/// extents away, which would cost floats more than four of their 24 bits. A multiple of a power of two, so that
-/// subtracting it rounds nothing that matters.
-dvec3 choose_origin(dvec3 min, dvec3 max);
-
 // The loaders. Each throws Error with one sentence and reads nothing outside the file's folder.
 Model load_gltf(const std::filesystem::path& path);
 Model load_obj(const std::filesystem::path& path);

@@ -84,7 +84,9 @@ RasterDesc pipeline(const Peer& peer, Kernel kernel, std::size_t views, std::uin
     std::string text = fmt::format("#define GN_VIEWS {}\n#define GN_TEXEL {}\n", views, 1.0 / resolution);
     text += kernel != Kernel::none ? "#define GN_SHADOWED\n" : "";
     text += kernel == Kernel::grid3 ? "#define GN_GRID3\n" : "";
-    text += peer.views == Views::cube ? "#define GN_CUBE\n" : peer.views == Views::cascades ? "#define GN_CASCADES\n" : "";
+    text += peer.views == Views::cube       ? "#define GN_CUBE\n"
+            : peer.views == Views::cascades ? "#define GN_CASCADES\n"
+                                            : "";
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, "inline.vert", vertex_text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "inline.frag", text + fragment_text};
@@ -113,7 +115,8 @@ void build_forward(Bench& bench, const Peer& peer, Kernel kernel, FrameGraph& gr
     const Camera& camera = gpu.scene->cameras[0];
     const SceneHandles handles = import_scene(graph, gpu);
     const ViewSamples samples{.width = width, .height = height, .camera = camera};
-    const FrameInput input{bench.device(), graph, *gpu.scene, handles, samples, nullptr, static_cast<std::size_t>(peer.light)};
+    const FrameInput input{
+        bench.device(), graph, *gpu.scene, handles, samples, nullptr, static_cast<std::size_t>(peer.light)};
     const Recipe recipe = load_recipe(peer.recipe);
     const LightViews views = place_views(input, recipe);
     TextureHandle map;
@@ -177,7 +180,8 @@ void main() { v = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r > 0.0 ? 1.0 : 0
 }
 
 Timed forward(Bench& bench, const Peer& peer, Kernel kernel) {
-    return graph_pass(bench, [&bench, peer, kernel](FrameGraph& graph) { build_forward(bench, peer, kernel, graph); }, "inline");
+    return graph_pass(
+        bench, [&bench, peer, kernel](FrameGraph& graph) { build_forward(bench, peer, kernel, graph); }, "inline");
 }
 
 void row(Bench& bench, const std::string& what, const Peer& peer) {
@@ -194,13 +198,15 @@ void inlined(Bench& bench) {
     row(bench, "spot, one map, hard", {"courtyard", "hard,placement=fit", 2, Kernel::hard, Views::one});
     row(bench, "point, cube, hard", {"courtyard", "hard,placement=cube", 1, Kernel::hard, Views::cube});
     row(bench, "sun, 4 cascades, hard",
-        {"courtyard", "hard,placement=cascades,cascades.select=distance,cascades.transition=none", 0, Kernel::hard, Views::cascades});
-    row(bench, "sun, 4 cascades, 3x3",
-        {"courtyard", "pcf,placement=cascades,cascades.select=distance,cascades.transition=none,pcf.kernel=3x3", 0, Kernel::grid3,
+        {"courtyard", "hard,placement=cascades,cascades.select=distance,cascades.transition=none", 0, Kernel::hard,
          Views::cascades});
+    row(bench, "sun, 4 cascades, 3x3",
+        {"courtyard", "pcf,placement=cascades,cascades.select=distance,cascades.transition=none,pcf.kernel=3x3", 0,
+         Kernel::grid3, Views::cascades});
 
     print_title("over a pass that reads depth and writes V");
-    const Timed floor = graph_pass(bench, [&bench](FrameGraph& graph) { build_floor(bench, "courtyard", graph); }, "floor");
+    const Timed floor = graph_pass(
+        bench, [&bench](FrameGraph& graph) { build_floor(bench, "courtyard", graph); }, "floor");
     for (const char* recipe : {"hard,placement=fit", "pcf,placement=fit,pcf.kernel=3x3", "hard,placement=cascades"}) {
         print_ratio(recipe, passes(bench, "courtyard", load_recipe(recipe), {"lookup"}), floor);
     }
