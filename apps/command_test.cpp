@@ -26,7 +26,6 @@ void expect_misuse(const Words& arguments, const Words& parts) {
 }
 
 TEST(CommandLine, MisuseIsOneSentenceThatNamesWhatIsValid) {
-    expect_misuse({}, {"list", "show", "render", "compare", "doctor"});
     expect_misuse({"rendr"}, {"'rendr'", "did you mean 'render'", "compare"});
     expect_misuse({"list", "part"}, {"'part'", "parts, recipes, scenes, metrics"});
     expect_misuse({"list", "parts", "recipes"}, {"'recipes'"});
@@ -39,6 +38,55 @@ TEST(CommandLine, MisuseIsOneSentenceThatNamesWhatIsValid) {
     expect_misuse({"compare", "slab", "-r", "hard", "--samples", "0"}, {"--samples"});
     expect_misuse({"compare", "slab", "-r", "hard", "--samples", "many"}, {"--samples"});
     expect_misuse({"compare", "slab", "-r", "hard", "--repeat", "-1"}, {"--repeat"});
+}
+
+TEST(CommandLine, AloneItPrintsItsHelp) {
+    const CommandResult alone = run_gnomon({});
+    EXPECT_EQ(alone.status, 0);
+    EXPECT_EQ(alone.err, "");
+    EXPECT_EQ(alone.out, run_gnomon({"--help"}).out);
+    expect_has(alone.out, {"list", "show", "render", "compare", "doctor", "Examples:"});
+}
+
+TEST(CommandLine, KeysThatARecipeCannotUseAreNamed) {
+    // Direct parts have no placement, no map and no bias; `forward` and `auto` are the exceptions.
+    expect_misuse({"compare", "nowhere", "-r", "volumes,placement=cascades,bias.normal=9"},
+                  {"-r volumes", "placement", "bias.normal", "volumes"});
+    expect_misuse({"compare", "nowhere", "-r", "none,resolution=64"}, {"resolution", "none"});
+    expect_misuse({"compare", "nowhere", "-r", "planar,casters=front"}, {"casters", "planar"});
+    expect_misuse({"compare", "nowhere", "-r", "forward,bias.cone=1"}, {"bias.cone", "forward"});
+    // Parameters belong to the parts that the recipe has in the end, wherever they stand.
+    expect_misuse({"compare", "nowhere", "-r", "pcf,filtered.radius=3"}, {"filtered.radius", "pcf"});
+    expect_misuse({"compare", "nowhere", "-r", "pcf,cascades.count=3"}, {"cascades.count", "fit", "cube"});
+    expect_misuse({"compare", "nowhere", "-r", "hard,vsm.radius=3"}, {"vsm.radius", "depth"});
+    for (const char* sound :
+         {"volumes,placement=auto", "forward,placement=paraboloid,resolution=256", "pcf,cube.resolution=coverage",
+          "pcf,cascades.count=3,placement=cascades", "pcf,placement=cascades,cube.resolution=coverage",
+          "hard,vsm.radius=3,map=vsm,lookup=filtered", "volumes,map=depth,lookup=pcf,pcf.size=5,bias.normal=1"}) {
+        expect_misuse({"compare", "nowhere", "-r", sound}, {"nowhere", "courtyard"});
+    }
+}
+
+TEST(CommandLine, RecipeFilesNameOnlyWhatTheyUse) {
+    const ScratchFolder folder;
+    folder.write("mine.toml", "direct = \"volumes\"\n[bias]\nnormal = 2\n");
+    expect_misuse({"compare", "nowhere", "-r", folder / "mine.toml"}, {"mine.toml", "bias.normal"});
+    // What an override replaces may have had parameters in the file.
+    folder.write("mine.toml", "map = \"depth\"\nlookup = \"pcf\"\n[pcf]\nsize = 5\n");
+    expect_misuse({"compare", "nowhere", "-r", (folder / "mine.toml") + ",lookup=hard"}, {"nowhere", "courtyard"});
+}
+
+TEST(CommandLine, BlanksAfterCommasAreAllowed) {
+    expect_misuse({"compare", "nowhere", "-r", "pcf, pcf.size = 5"}, {"nowhere", "courtyard"});
+    expect_misuse({"compare", "nowhere", "-r", "pcf,", "pcf.size=5,", "resolution=64"}, {"nowhere", "courtyard"});
+    expect_misuse({"render", "-r", "pcf,", "pcf.size=5", "nowhere"}, {"nowhere", "courtyard"});
+    expect_misuse({"compare", "nowhere", "-r", "pcf, pcf.tabs=3"}, {"tabs", "taps"});
+}
+
+TEST(CommandLine, PicturesOfMapsNeedAMap) {
+    for (const char* recipe : {"volumes", "none", "planar"}) {
+        expect_misuse({"render", "slab", "-r", recipe, "--show", "map"}, {"--show map", recipe, "no map"});
+    }
 }
 
 TEST(CommandLine, SizesAreWidthXHeight) {
