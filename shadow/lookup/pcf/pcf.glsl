@@ -49,9 +49,10 @@ GN_FN float gn_pcf_weight(int kernel, int size, float t, int i) {
         return i < size ? 1.0f / float(size) : 0.0f;
     }
     // A box of `size` texels around t, intersected with texel i: what `size` bilinear taps average.
+    // Measured from the footprint's first texel: within thousands of texels a float's step would show in the sum.
     float start = t - 0.5f * float(size);
-    float position = floor(start) + float(i);
-    float covered = min(position + 1.0f, start + float(size)) - max(position, start);
+    float into = start - floor(start);
+    float covered = min(float(i) + 1.0f, into + float(size)) - max(float(i), into);
     return clamp(covered, 0.0f, 1.0f) / float(size);
 }
 
