@@ -23,7 +23,7 @@
 
 namespace gn {
 
-inline constexpr double plane_ulps = 4;
+inline constexpr double plane_ulps = 1.5;
 inline constexpr double origin_ulps = 4;
 /// How far a view sample may be from its surface, for seating: interpolated positions err by units of the vertices.
 inline constexpr double seat_ulps = 64;

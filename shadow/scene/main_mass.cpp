@@ -96,7 +96,9 @@ Fence find_fence(std::vector<TriangleSample> samples) {
         return {};
     }
     const dvec3 room(64.0 * spread);
-    return {dvec3(middle[0].x, middle[1].x, middle[2].x) - room, dvec3(middle[0].y, middle[1].y, middle[2].y) + room};
+    // A ground may be a hundred thousand times as wide as what stands on it; a million times is a vertex left at zero.
+    return {dvec3(middle[0].x, middle[1].x, middle[2].x) - room, dvec3(middle[0].y, middle[1].y, middle[2].y) + room,
+            0x1p20 * spread};
 }
 
 std::vector<TriangleSample> triangle_samples(const Scene& scene) {

@@ -14,9 +14,13 @@ namespace gn {
 /// A box in double precision around the main mass, with room: what lies wholly outside is a stray.
 struct Fence {
     dvec3 min{std::numeric_limits<double>::lowest()}, max{std::numeric_limits<double>::max()};
+    double longest =
+        std::numeric_limits<double>::max();  ///< a triangle longer than this ties the scene to a stray vertex
     /// Whether the box of a triangle meets the fence.
     [[nodiscard]] bool meets(dvec3 low, dvec3 high) const {
-        return glm::all(glm::lessThanEqual(low, max)) && glm::all(glm::lessThanEqual(min, high));
+        const dvec3 size = high - low;
+        return glm::all(glm::lessThanEqual(low, max)) && glm::all(glm::lessThanEqual(min, high)) &&
+               std::max({size.x, size.y, size.z}) <= longest;
     }
 };
 
