@@ -108,6 +108,10 @@ void check_complete(const Recipe& recipe) {
     }
 }
 
+std::string stages_misfit(const Recipe& recipe) {
+    return recipe.map != nullptr && recipe.lookup != nullptr ? mismatch_of(*recipe.map, *recipe.lookup) : "";
+}
+
 std::string placement_remark(const Recipe& recipe, const Scene& scene) {
     if (recipe.placement == nullptr || !serves_some(*recipe.placement, scene)) {
         return {};
@@ -134,7 +138,7 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
 
     // The stages must fit each other before anything is asked of one.
     if (recipe.map != nullptr && recipe.lookup != nullptr) {
-        if (const std::string sentence = mismatch_of(*recipe.map, *recipe.lookup); !sentence.empty()) {
+        if (const std::string sentence = stages_misfit(recipe); !sentence.empty()) {
             refuse("{}", sentence);
         }
         check_part(recipe.placement_for(light.shape), recipe, scene, light, device);

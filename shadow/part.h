@@ -39,12 +39,13 @@ class Part {
   public:
     std::string_view id;  ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
     Stage stage = Stage::lookup;
-    std::string_view title;          ///< "Percentage-closer filtering"
-    std::string_view citation;       ///< key in docs/references.bib
-    std::string_view needs;          ///< lookup: what the map must give ("depth", "moments"); else ""
-    std::string_view gives;          ///< map: what it gives; else ""
-    bool separates_casters = false;  ///< map: serves casters = midpoint, dual, ids
-    bool compares_ids = false;       ///< lookup: compares objects where casters = ids
+    std::string_view title;               ///< "Percentage-closer filtering"
+    std::string_view citation;            ///< key in docs/references.bib
+    std::string_view needs;               ///< lookup: what the map must give ("depth", "moments"); else ""
+    std::string_view gives;               ///< map: what it gives; else ""
+    bool separates_casters = false;       ///< map: serves casters = midpoint, dual, ids
+    bool compares_ids = false;            ///< lookup: compares objects where casters = ids
+    std::vector<std::string_view> reads;  ///< direct: keys of maps that it reads too ("placement", "resolution")
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
     /// Further features that its parameters ask for; may be null.

@@ -3,6 +3,7 @@
 
 #include "base/paths.h"
 #include "shadow/check_recipe.h"
+#include "shadow/recipe_keys.h"
 
 #define TOML_HEADER_ONLY 1
 #include <toml++/toml.h>
@@ -160,7 +161,15 @@ std::string text_of(const toml::node& node, std::string_view key, const std::str
     fail("{}: {} is neither a number, a text nor true or false", where, key);
 }
 
+/// Remembers that a key was set. A placement left to the lights is none that was named.
+void remember(std::vector<RecipeKey>& keys, std::string_view group, std::string_view name, const Recipe& recipe) {
+    if (!group.empty() || name != "placement" || recipe.placement != nullptr) {
+        keys.push_back({std::string(group), std::string(name)});
+    }
+}
+
 void read_table(Recipe& recipe, const toml::table& file, const std::string& where) {
+    std::vector<RecipeKey> keys;
     // A file that names both kinds of technique means neither.
     if (file.contains("direct") && (file.contains("map") || file.contains("lookup") || file.contains("placement"))) {
         fail("{}: direct stands beside placement, map or lookup; a recipe has either direct or the other three", where);
@@ -171,6 +180,7 @@ void read_table(Recipe& recipe, const toml::table& file, const std::string& wher
             for (const auto& [name, value] : *group) {
                 const std::string full = fmt::format("{}.{}", key, name.str());
                 set_group(recipe, key, name.str(), text_of(value, full, where), where);
+                remember(keys, key, name.str(), recipe);
             }
         } else if (key == "title") {
             recipe.title = text_of(node, key, where);
@@ -180,8 +190,16 @@ void read_table(Recipe& recipe, const toml::table& file, const std::string& wher
             recipe.citation = text_of(node, key, where);
         } else if (!set_top_level(recipe, key, text_of(node, key, where), where)) {
             fail_unknown_key(recipe, key, where);
+        } else {
+            remember(keys, "", key, recipe);
         }
     }
+    check_keys(recipe, keys, where);
+}
+
+std::string_view without_blanks(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\n");
+    return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t\n") + 1 - first);
 }
 
 bool is_path(std::string_view name) {
@@ -226,23 +244,32 @@ toml::table read_file(const std::filesystem::path& path, const std::string& wher
 
 void apply_overrides(Recipe& recipe, std::string_view overrides) {
     const std::string where = fmt::format("-r {}", recipe.name);
+    std::vector<RecipeKey> keys;
     while (!overrides.empty()) {
         // Cut the next key=value off the list.
-        const std::string_view item = overrides.substr(0, overrides.find(','));
-        overrides.remove_prefix(std::min(overrides.size(), item.size() + 1));
+        const std::size_t comma = std::min(overrides.find(','), overrides.size());
+        const std::string_view item = without_blanks(overrides.substr(0, comma));
+        overrides.remove_prefix(std::min(overrides.size(), comma + 1));
         const std::size_t equals = item.find('=');
         if (equals == std::string_view::npos || equals == 0) {
             fail("{}: '{}' is no override; they are written key=value and separated by commas", where, item);
         }
         // Take it as a top-level key, or as group.name.
-        const std::string_view key = item.substr(0, equals), value = item.substr(equals + 1);
+        const std::string_view key = without_blanks(item.substr(0, equals));
+        const std::string_view value = without_blanks(item.substr(equals + 1));
         const std::size_t dot = key.find('.');
         if (dot != std::string_view::npos) {
             set_group(recipe, key.substr(0, dot), key.substr(dot + 1), value, where);
-        } else if (!set_top_level(recipe, key, value, where)) {
+            remember(keys, key.substr(0, dot), key.substr(dot + 1), recipe);
+        } else if (set_top_level(recipe, key, value, where)) {
+            remember(keys, "", key, recipe);
+        } else {
             fail_unknown_key(recipe, key, where);
         }
+        recipe.overrides += fmt::format("{}{}={}", recipe.overrides.empty() ? "" : ",", key, value);
     }
+    check_complete(recipe);
+    check_keys(recipe, keys, where);
 }
 
 }  // namespace
@@ -268,14 +295,12 @@ Recipe load_recipe(const std::string& name_and_overrides) {
     }
     // Read the file, then lay the overrides over it.
     const std::size_t comma = name_and_overrides.find(',');
-    const std::string name = name_and_overrides.substr(0, comma);
+    const std::string name(without_blanks(std::string_view(name_and_overrides).substr(0, comma)));
     const std::filesystem::path path = recipe_path(name);
     recipe.name = path.stem().string();
     const std::string where = is_path(name) ? name : fmt::format("recipe {}", recipe.name);
     read_table(recipe, read_file(path, where), where);
-    recipe.overrides = comma == std::string::npos ? "" : name_and_overrides.substr(comma + 1);
-    apply_overrides(recipe, recipe.overrides);
-    check_complete(recipe);
+    apply_overrides(recipe, comma == std::string::npos ? "" : std::string_view(name_and_overrides).substr(comma + 1));
     return recipe;
 }
 

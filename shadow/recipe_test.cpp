@@ -125,6 +125,33 @@ TEST(Recipes, NameTheirParts) {
     EXPECT_EQ(load_recipe("pcf-poisson").block(find_part(Stage::lookup, "pcf")).get("kernel"), "rotated-poisson");
 }
 
+TEST(Recipes, NameNoKeyThatNoPartReads) {
+    // Each group of keys once where it is read and once where it is not.
+    const std::vector<std::pair<std::string, std::string>> pairs{
+        {"volumes,placement=cascades", "hard,placement=cascades"},
+        {"volumes,bias.normal=9", "hard,bias.normal=9"},
+        {"none,resolution=64", "forward,resolution=64"},
+        {"planar,casters=back", "pcf,casters=back"},
+        {"forward,bias.cone=1", "forward,placement=single"},
+        {"hard,pcf.size=5", "hard,pcf.size=5,lookup=pcf"},
+        {"hard,vsm.radius=2", "vsm,vsm.radius=2"},
+        {"pcf,cascades.count=2", "pcf,cascades.count=2,placement=cascades"},
+        {"pcf,bilateral.radius=2", "pcf,visibility=bilateral,bilateral.radius=2"},
+        {"pcf,placement=cascades,direct=volumes", "pcf,placement=cascades,cube.resolution=coverage"}};
+    for (const auto& [wrong, right] : pairs) {
+        expect_has(sentence_of(wrong), {"would change nothing", "keys that they read"});
+        EXPECT_EQ(sentence_of(right), "") << right;
+    }
+    // `auto` leaves the placement to the lights, which is what a recipe without one does.
+    EXPECT_EQ(sentence_of("volumes,placement=auto"), "");
+}
+
+TEST(Recipes, BlanksBetweenOverridesMeanNothing) {
+    const Recipe recipe = load_recipe("pcf, resolution = 64 ,\tpcf.size=5");
+    EXPECT_EQ(recipe.overrides, "resolution=64,pcf.size=5");
+    EXPECT_EQ(recipe.resolution, 64);
+}
+
 TEST(Recipes, AutomaticPlacementSuitsTheLight) {
     const Recipe recipe = load_recipe("hard");
     EXPECT_EQ(recipe.placement, nullptr);

@@ -9,6 +9,7 @@
 #include "shadow/direct/forward/forward_passes.h"
 
 #include "shadow/map/raster.h"
+#include "shadow/map_memory.h"
 #include "shadow/placement/place.h"
 #include "shadow/scene/casting.h"
 
@@ -25,6 +26,7 @@ Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
                                                                .width = views.resolution,
                                                                .height = views.resolution,
                                                                .layers = views.layers});
+    check_map_memory(input, recipe, depth);
     add_caster_passes(input, recipe, views, {.depth = depth});
 
     // Carry every lit texel into the view.
@@ -73,6 +75,7 @@ const Part& direct_forward() {
         });
         p.params_type = "GnForwardParams";
         p.glsl = "shadow/direct/forward/forward.glsl";
+        p.reads = {"placement", "resolution"};
         p.add_direct = add_forward;
         p.refuses = refuses;
         return p;
