@@ -80,9 +80,10 @@ TEST(Framing, ABareModelFitsThePicturesOwnAspect) {
         const json document = compared(folder / "plate.obj", {"--size", size, "--ground", "none"});
         return document.at("runs").at(0).at("samples").get<double>();
     };
-    // A picture four times as high as wide shows the plate as wide as a square one does, and no larger.
+    // A picture four times as high as wide shows the plate as wide as a square one does, and no larger; from farther off it
+    // looks up to a quarter larger, since its far end shrinks less. Framed for a square it would be cut, at four times the size.
     const double square = seen("60x60");
-    EXPECT_NEAR(seen("60x240") / square, 1.0, 0.1);
+    EXPECT_NEAR(seen("60x240") / square, 1.0, 0.3);
     // A wide one has room for more of it.
     EXPECT_GT(seen("240x60") / square, 2.0);
 }

@@ -39,6 +39,8 @@ mat4 cs_from_vs(const Camera& camera, float aspect) {
     m[1][1] = static_cast<float>(-scale);
     m[2][2] = static_cast<float>(near / (far - near));
     m[2][3] = -1.0F;
+    m[2][0] = -camera.shift_cs.x;
+    m[2][1] = -camera.shift_cs.y;
     m[3][2] = static_cast<float>(near * far / (far - near));
     return m;
 }
@@ -135,8 +137,8 @@ void note_cut(Scene& scene, const Camera& camera) {
     }
 }
 
-// Three quarters from the front, above the horizon, at the distance that shows the whole box in a square picture.
-Camera frame_box(const Box& box) {
+// Three quarters from the front, above the horizon, at the distance that shows the whole box in a picture of this aspect.
+Camera frame_box(const Box& box, float aspect) {
     Camera camera;
     const vec3 towards = glm::normalize(vec3(0.62F, 0.5F, 1.0F));
     camera.forward_ws = -towards;
@@ -146,7 +148,7 @@ Camera frame_box(const Box& box) {
     float distance = 0.0F;
     for (const vec3 corner : box.corners()) {
         const vec3 offset = corner - box.centre();
-        const float side = std::max(std::abs(glm::dot(offset, right)), std::abs(glm::dot(offset, up)));
+        const float side = std::max(std::abs(glm::dot(offset, right)) / aspect, std::abs(glm::dot(offset, up)));
         distance = std::max(distance, glm::dot(offset, towards) + side / slope);
     }
     camera.position_ws = box.centre() + towards * (1.05F * distance);
@@ -208,7 +210,7 @@ void make_names_unique(std::vector<Camera>& cameras) {
 
 }  // namespace
 
-void complete_cameras(Scene& scene) {
+void complete_cameras(Scene& scene, float aspect) {
     constexpr std::size_t max_cameras = 256;
     if (scene.cameras.size() > max_cameras) {
         add_note(scene.notes, fmt::format("{} cameras were dropped; at most {} are kept.",
@@ -236,7 +238,7 @@ void complete_cameras(Scene& scene) {
     const bool taken = std::any_of(scene.cameras.begin(), scene.cameras.end(),
                                    [](const Camera& camera) { return camera.name == "overview"; });
     if (bare || (!taken && !scene.closed_form && !scene.bounds_ws.empty())) {
-        scene.cameras.push_back(frame_box(scene.bounds_ws.empty() ? bounds : main_bounds(scene)));
+        scene.cameras.push_back(frame_box(scene.bounds_ws.empty() ? bounds : main_bounds(scene), aspect));
         scene.cameras.back().name = bare ? "main" : "overview";
         choose_range(scene.cameras.back(), scene, bounds, false, false);
     }

@@ -2,6 +2,7 @@
 // Completing a scene: what every later stage may rely on is established here.
 #include "base/error.h"
 #include "shadow/scene/clusters.h"
+#include "shadow/scene/ground.h"
 #include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
 
@@ -186,7 +187,7 @@ void finish_host_scene(Scene& scene) {
     complete_casting(scene);
 }
 
-void finish_scene(Scene& scene) {
+void finish_scene(Scene& scene, const LoadOptions& options) {
     // Geometry that can be trusted.
     check_structure(scene);
     drop_bad_triangles(scene);
@@ -207,7 +208,13 @@ void finish_scene(Scene& scene) {
                              scene.origin.x, scene.origin.y, scene.origin.z));
     }
     note_lost_precision(scene);
-    complete_cameras(scene);
+    std::vector<bool> automatic;
+    for (const Camera& camera : scene.cameras) {
+        automatic.push_back(camera.far == 0.0F);
+    }
+    complete_cameras(scene, options.aspect);
+    automatic.resize(scene.cameras.size(), true);
+    add_ground(scene, options.ground, automatic);
     add_default_sun(scene);
     complete_lights(scene);
     complete_casting(scene);

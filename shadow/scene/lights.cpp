@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lights: repaired where their values make no sense, capped in number, and a sun where there is none.
+// Lights: repaired where their values make no sense, named apart, and a sun where there is none.
 #include "base/error.h"
 #include "shadow/scene/model.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace gn {
 
@@ -115,24 +117,17 @@ void add_default_sun(Scene& scene) {
 }
 
 void complete_lights(Scene& scene) {
-    if (scene.lights.size() > max_lights) {
-        add_note(scene.notes, fmt::format("{} lights were dropped; the first {} are kept.",
-                                          scene.lights.size() - max_lights, max_lights));
-        scene.lights.resize(max_lights);
-    }
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        Light& light = scene.lights[i];
-
-        // Lights are asked for by name: a second "lamp" becomes "lamp 2".
+    // Lights are asked for by name: a second "lamp" becomes "lamp 2". Numbers of a name only grow, so that thousands of
+    // lamps take no longer than their sum.
+    std::set<std::string, std::less<>> taken;
+    std::map<std::string, int, std::less<>> numbers;
+    for (Light& light : scene.lights) {
         const std::string base = light.name.empty() ? "light" : light.name;
         light.name = base;
-        const auto taken = [&] {
-            return std::any_of(scene.lights.begin(), scene.lights.begin() + static_cast<std::ptrdiff_t>(i),
-                               [&](const Light& other) { return other.name == light.name; });
-        };
-        for (int number = 2; taken(); ++number) {
-            light.name = fmt::format("{} {}", base, number);
+        for (int& number = numbers.try_emplace(base, 1).first->second; taken.contains(light.name);) {
+            light.name = fmt::format("{} {}", base, ++number);
         }
+        taken.insert(light.name);
         repair_light(light, scene.notes);
     }
 }

@@ -46,7 +46,7 @@ Model load_model(const std::filesystem::path& path, bool toml_allowed) {
          clean_text(extension), toml_allowed ? " .toml" : "", fmt::join(through_assimp, " "));
 }
 
-Scene load_scene(const std::string& name_or_path) {
+Scene load_scene(const std::string& name_or_path, const LoadOptions& options) {
     // A path is what exists or looks like one; everything else is a built-in name.
     const std::filesystem::path path(name_or_path);
     std::error_code error;
@@ -59,8 +59,11 @@ Scene load_scene(const std::string& name_or_path) {
             scene.name = clean_text(path.stem().string());
         } else {
             scene = make_builtin_scene(name_or_path);
+            if (options.ground.kind == Ground::at_height) {
+                fail("scene '{}' is built in and has its own ground; a height is for files", name_or_path);
+            }
         }
-        finish_scene(scene);
+        finish_scene(scene, {is_path ? options.ground : Ground{}, options.aspect});
     } catch (const std::bad_alloc&) {
         fail("{}: not enough memory for the scene", clean_text(name_or_path));
     } catch (const std::length_error&) {

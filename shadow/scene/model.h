@@ -85,7 +85,7 @@ void complete_normals(Scene& scene);
 /// Where there is no light; asks for the first camera.
 void add_default_sun(Scene& scene);
 void complete_lights(Scene& scene);
-void complete_cameras(Scene& scene);
+void complete_cameras(Scene& scene, float aspect = 1.0F);
 /// Glass, and the bulbs that lamps spare.
 void complete_casting(Scene& scene);
 /// The box of the main mass of triangles: few far outliers left out.

@@ -63,6 +63,7 @@ struct Camera {
     vec3 up_ws{0, 1, 0};
     float yfov = 0.9F;             ///< full vertical angle, radians
     float near = 0.1F, far = 500;  ///< metres
+    vec2 shift_cs{0};              ///< moves the picture right and down; sub-pixel shifts for smooth edges
 };
 
 /// Camera positions over time, for flicker: `frames` cameras in order.
@@ -93,19 +94,29 @@ struct Scene {
     [[nodiscard]] const Camera& camera(std::string_view view_name) const;  ///< "" is the first; throws Error
 };
 
-/// Most lights that a scene keeps; the loader drops the rest with a note.
-inline constexpr std::size_t max_lights = 64;
 /// Most triangles after instancing; more is an Error.
 inline constexpr std::size_t max_triangles = 64'000'000;
+
+/// A ground plane for models that bring none.
+struct Ground {
+    enum Kind { none, automatic, at_height } kind = none;  ///< automatic: where a file has no floor of its own
+    double height = 0;                                     ///< at_height: metres, in the file's coordinates
+};
+
+/// What is chosen for a scene that leaves it open.
+struct LoadOptions {
+    Ground ground;        ///< for files; a built-in scene has its own
+    float aspect = 1.0F;  ///< width by height of the picture that default cameras frame the scene for
+};
 
 /// Loads a built-in scene by name or a file by path (.glb .gltf .obj .toml and what Assimp knows). A built-in name may
 /// carry parameters: "tilted:angle=85", "contact:size=2". Throws Error with one sentence; never reads outside the
 /// file's folder; ends in bounded time and memory.
-Scene load_scene(const std::string& name_or_path);
+Scene load_scene(const std::string& name_or_path, const LoadOptions& options = {});
 
 /// Completes a scene: bounds, origin (re-centres scenes far from zero), normals where missing, degenerate and
-/// non-finite triangles dropped with a note, default camera and sun where none is given, lights capped.
-void finish_scene(Scene& scene);
+/// non-finite triangles dropped with a note, default camera and sun where none is given, the ground that is asked for.
+void finish_scene(Scene& scene, const LoadOptions& options = {});
 
 /// Completes what a host hands over: the same, but nothing is moved and no camera or light is made up.
 void finish_host_scene(Scene& scene);
