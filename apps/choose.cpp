@@ -6,6 +6,14 @@
 
 namespace gn {
 
+LoadOptions load_options(const GroundOption& ground, const Size& size) {
+    LoadOptions options;
+    options.ground.kind = ground.height ? Ground::at_height : ground.automatic ? Ground::automatic : Ground::none;
+    options.ground.height = ground.height.value_or(0.0);
+    options.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    return options;
+}
+
 std::size_t find_light(const Scene& scene, const std::string& name) {
     std::vector<std::string_view> known;
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {

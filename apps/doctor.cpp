@@ -9,6 +9,9 @@ namespace {
 /// Parts that the device's missing features rule out, a line each.
 void print_ruled_out() {
     const std::unique_ptr<Device> device = Device::create();
+    for (const std::string& note : device->info().notes) {
+        fmt::print("  note: {}\n", note);
+    }
     int ruled_out = 0;
     for (const Part* part : all_parts()) {
         for (const Feature feature : part->features) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace gn {
 namespace {
@@ -32,7 +33,10 @@ constexpr const char* examples = R"(Examples:
 SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
 .toml file. RECIPE is a recipe's name or .toml file, followed by overrides: pcf,resolution=2048,bias.normal=1.
 Exit status: 0 all that was asked for was done; 1 something failed; 2 wrong usage or unreadable input. A refused
-recipe is no failure unless --strict is given.)";
+recipe, and a run that measured nothing, are no failure unless --strict is given.)";
+
+constexpr const char* ground_help =
+    "auto sets a file without a floor on a ground plane; none; or a height in metres of the file (default: auto)";
 
 constexpr const char* compare_examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
@@ -42,7 +46,8 @@ constexpr const char* compare_examples = R"(Examples:
   gnomon compare corridor -r pcf,placement=cascades -r pcf,placement=fit --path walk -o report
 
 Results are kept in DIR/results as soon as they are measured: the same command again only measures what is missing.
-A run is ok when it served at least one light; a light that it refused has status and reason of its own.)";
+A run is ok when it served at least one light that reaches what the view sees; a light that it refused, or that reaches
+nothing, has status and reason of its own. Ctrl-C keeps what is measured.)";
 
 Size parse_size(const std::string& text) {
     Size size{0, 0};
@@ -58,11 +63,35 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
-/// The command line as it would be typed again.
-std::string quoted_command(int argc, char** argv) {
-    std::string line = "gnomon";
+GroundOption parse_ground(const std::string& text) {
+    if (text.empty() || text == "auto") {
+        return {};
+    }
+    double height = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), height);
+    const bool number = code == std::errc{} && end == text.data() + text.size() && std::abs(height) <= 1e9;
+    if (!number && text != "none") {
+        throw InputError(fmt::format("--ground: '{}' is no ground; valid are auto, none, or a height in metres", text));
+    }
+    return {false, number ? std::optional<double>(height) : std::nullopt};
+}
+
+/// The words of the command line; one that ends in a comma goes on in the next: -r pcf, pcf.size=5.
+std::vector<std::string> joined_words(int argc, char** argv) {
+    std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) {
-        line += " " + shell_word(argv[i]);
+        const std::string word = argv[i];
+        const bool goes_on = !words.empty() && words.back().ends_with(',') && word.find('=') != std::string::npos;
+        goes_on ? void(words.back() += word) : words.push_back(word);
+    }
+    return words;
+}
+
+/// The command line as it would be typed again.
+std::string quoted_command(const std::vector<std::string>& words) {
+    std::string line = "gnomon";
+    for (const std::string& word : words) {
+        line += " " + shell_word(word);
     }
     return line;
 }
@@ -84,13 +113,14 @@ struct Parser {
     ShowOptions show;
     RenderOptions render;
     CompareOptions compare;
-    std::string render_size, compare_size;
+    std::string render_size, compare_size, render_ground, compare_ground;
     CLI::Option* path = nullptr;
-    bool verbose = false;
+    bool verbose = false, quiet = false;
 
     Parser() {
         app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
-        app.add_flag("-v,--verbose", verbose, "Say on standard error what is being done");
+        app.add_flag("-v,--verbose", verbose, "Say on standard error what is being done, and every note by itself");
+        app.add_flag("-q,--quiet", quiet, "Say no notes; they stay in the report and in the JSON");
         app.require_subcommand(1);
         app.footer(examples);
         add_list();
@@ -118,6 +148,12 @@ struct Parser {
         command->add_option("-o,--output", render.output, "Picture to write, .png or .exr (default: out.png)");
         command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", render.view, "Name of the camera (default: the first)");
+        command->add_option("--ground", render_ground, ground_help);
+        command
+            ->add_option("--antialias", render.antialias,
+                         "Frames with sub-pixel shifts that are averaged; each costs a whole frame, 1 smooths "
+                         "nothing; V and --show are of the unshifted frame (default: 4)")
+            ->check(CLI::Range(1, 64));
         command->add_option("--visibility", render.visibility, "Also write V as .exr, one channel a light");
         command->add_option("--show", render.show,
                             "Instead of the picture, what the recipe hides: " + known_pictures());
@@ -136,6 +172,7 @@ struct Parser {
         command->add_option("--json", compare.json, "Write the figures as JSON; - is standard output");
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
+        command->add_option("--ground", compare_ground, ground_help);
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
         command->add_option("--against", compare.against,
                             "Also hold every run against this recipe's visibility: the figures 'against'");
@@ -175,14 +212,13 @@ struct Parser {
     throw InputError(fmt::format("{}: '{}' is not expected here; {}", command.get_name(), word, suggest(word, known)));
 }
 
-void check_command_name(const CLI::App& app, int argc, char** argv) {
+void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) {
         names.push_back(command->get_name());
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
+    for (const std::string& word : words) {
         if (word.starts_with('-')) {
             continue;
         }
@@ -191,14 +227,13 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
         }
         return;
     }
-    if (argc < 2) {
-        throw InputError(fmt::format("no command given; {} ('gnomon --help' explains them)", suggest("", known)));
-    }
 }
 
-void parse(Parser& parser, int argc, char** argv) {
+void parse(Parser& parser, std::vector<std::string> words) {
+    // CLI11 takes them last word first. The bare command asks for help.
+    std::reverse(words.begin(), words.end());
     try {
-        parser.app.parse(argc, argv);
+        parser.app.parse(words.empty() ? std::vector<std::string>{"--help"} : std::move(words));
     } catch (const CLI::CallForHelp&) {
         throw;
     } catch (const CLI::CallForVersion&) {
@@ -220,14 +255,15 @@ void parse(Parser& parser, int argc, char** argv) {
 std::optional<Command> parse_command_line(int argc, char** argv) {
     // Let CLI11 answer --help and --version, and put its complaints into one sentence.
     Parser parser;
-    check_command_name(parser.app, argc, argv);
+    const std::vector<std::string> words = joined_words(argc, argv);
+    check_command_name(parser.app, words);
     try {
-        parse(parser, argc, argv);
+        parse(parser, words);
     } catch (const CLI::ParseError& answered) {
         parser.app.exit(answered);
         return std::nullopt;
     }
-    spdlog::set_level(parser.verbose ? spdlog::level::info : spdlog::level::warn);
+    spdlog::set_level(parser.quiet ? spdlog::level::err : parser.verbose ? spdlog::level::info : spdlog::level::warn);
     // Hand over the one command that was named.
     const std::string name = parser.app.get_subcommands().front()->get_name();
     if (name == "list") {
@@ -237,12 +273,14 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         return parser.show;
     }
     if (name == "render") {
+        parser.render.ground = parse_ground(parser.render_ground);
         parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
         return parser.render;
     }
     if (name == "compare") {
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
-        parser.compare.command = quoted_command(argc, argv);
+        parser.compare.ground = parse_ground(parser.compare_ground);
+        parser.compare.command = quoted_command(words);
         parser.compare.follow_path = parser.path->count() > 0;
         if (parser.compare.folder.empty() && parser.compare.json.empty()) {
             parser.compare.folder = "report";

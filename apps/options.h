@@ -44,8 +44,16 @@ struct ShowOptions {
     std::string id;
 };
 
+/// --ground: under a model that has no floor, nowhere, or at a height of the file's coordinates.
+struct GroundOption {
+    bool automatic = true;
+    std::optional<double> height;  ///< metres
+};
+
 struct RenderOptions {
     std::string scene, recipe = "pcf", output = "out.png", view, visibility;
+    GroundOption ground;
+    int antialias = 4;        ///< frames, each moved by a part of a pixel
     std::string show, light;  ///< a picture of the hidden and the light that it is of; "" where not asked for
     Size size;
     bool strict = false, validate = false;
@@ -54,7 +62,8 @@ struct RenderOptions {
 struct CompareOptions {
     std::vector<std::string> scenes, recipes;
     std::string folder, json, view, light;  ///< "" where not asked for
-    std::string against;                    ///< the recipe that all others are held against besides, or ""
+    GroundOption ground;
+    std::string against;  ///< the recipe that all others are held against besides, or ""
     bool follow_path = false;
     std::string path;  ///< name of the camera path to follow; "" is the scene's first
     Size size;

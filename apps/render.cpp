@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One picture: load, render, tone-map, write.
 #include "apps/choose.h"
+#include "apps/notes.h"
 #include "apps/options.h"
 #include "apps/output.h"
+#include "apps/reach.h"
 #include "apps/terminal.h"
+#include "shadow/check_recipe.h"
 #include "shadow/frame.h"
 #include "shadow/lookup/show.h"
 #include "shadow/shading/tonemap.h"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -51,17 +52,83 @@ void write_visibility(const std::filesystem::path& path, const Scene& scene, con
     write_exr(path, layers, names);
 }
 
-/// Says on standard error which lights have no shadow, and returns how many.
-std::size_t report_refusals(const Scene& scene, const FrameResult& frame) {
-    std::size_t refused = 0;
+/// Says on standard error which lights are refused, a line a reason, and returns how many.
+std::size_t say_refusals(const Scene& scene, const FrameResult& frame) {
+    std::vector<LightReason> refused;
     for (std::size_t l = 0; l < frame.refused.size(); ++l) {
         if (!frame.refused[l].empty()) {
-            fmt::print(stderr, "gnomon: refused, and drawn without a shadow: light '{}': {}\n", scene.lights.at(l).name,
-                       frame.refused[l]);
-            ++refused;
+            refused.emplace_back(scene.lights.at(l).name, frame.refused[l]);
         }
     }
-    return refused;
+    const bool all = refused.size() == scene.lights.size();
+    for (const std::string& sentence : grouped_reasons(refused)) {
+        fmt::print(stderr, "gnomon: refused, {}: {}\n",
+                   all ? "so that no picture is written" : "and drawn without a shadow", sentence);
+    }
+    return refused.size();
+}
+
+/// Says what the picture does not show by itself: limits of the recipe, lights that reach nothing, lights that leave all
+/// dark.
+void say_remarks(const Scene& scene, const Camera& camera, const Recipe& recipe, const FrameResult& frame) {
+    std::vector<std::string> notes = frame.remarks;
+    for (std::size_t l = 0; l < frame.visibility.size(); ++l) {
+        if (!frame.refused[l].empty()) {
+            continue;
+        }
+        const Light& light = scene.lights[l];
+        const Reach reach = reach_of(frame.samples, light.shape, frame.visibility[l].values);
+        for (const std::string& note :
+             {empty_reason(reach, light.name, camera.name), shadow_remark(reach, light.name)}) {
+            if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
+                notes.push_back(note);
+            }
+        }
+    }
+    say_notes(fmt::format("{} with {}", scene.name, recipe.name), notes);
+}
+
+/// What is wrong with the recipe whatever the scene.
+void check_recipe_alone(const Recipe& recipe, const RenderOptions& options) {
+    if (const std::string sentence = stages_misfit(recipe); !sentence.empty()) {
+        throw InputError(fmt::format("-r {}: {}", recipe.name, sentence));
+    }
+    if (!options.show.empty() && recipe.map == nullptr) {
+        throw InputError(fmt::format("--show {}: recipe '{}' has no map, and all pictures of the hidden are of maps",
+                                     options.show, recipe.name));
+    }
+}
+
+/// Point k of a sequence that fills the unit square evenly, within half a unit of zero; the first is zero.
+vec2 even_shift(int k) {
+    // The steps are the powers of the number whose cube is one more than itself, the golden ratio's sister.
+    const dvec2 point = static_cast<double>(k) * dvec2(0.7548776662466927, 0.5698402909980532);
+    return vec2(point - glm::round(point));
+}
+
+/// The frame, its picture smoothed: the mean radiance of `frames` frames, each moved by a part of a pixel. V, samples and
+/// refusals are those of the first, which is not moved.
+FrameResult render_smooth(Device& device, SceneGpu& gpu, const Camera& camera, const Recipe& recipe, const Size& size,
+                          int frames) {
+    FrameOptions options;
+    options.width = static_cast<uint>(size.width);
+    options.height = static_cast<uint>(size.height);
+    options.repeat = 0;
+    FrameResult result = render_frame(device, gpu, camera, recipe, options);
+    const bool served =
+        std::any_of(result.refused.begin(), result.refused.end(), [](const auto& r) { return r.empty(); });
+    for (int k = 1; served && k < frames; ++k) {
+        Camera moved = camera;
+        moved.shift_cs = 2.0F * even_shift(k) / vec2(size.width, size.height);
+        const FrameResult frame = render_frame(device, gpu, moved, recipe, options);
+        for (std::size_t i = 0; i < result.picture.values.size(); ++i) {
+            result.picture.values[i] += frame.picture.values[i];
+        }
+    }
+    for (float& value : result.picture.values) {
+        value /= static_cast<float>(frames);
+    }
+    return result;
 }
 
 /// Writes one picture of the hidden, or as .exr the values behind it, and says what its colours mean.
@@ -97,26 +164,28 @@ int run(const RenderOptions& options) {
     Progress progress;
     progress.step(0, 3, "reading " + options.scene);
     const Recipe recipe = reading([&] { return load_recipe(options.recipe); });
-    const Scene scene = reading([&] { return load_scene(options.scene); });
+    check_recipe_alone(recipe, options);
+    const Scene scene = reading([&] { return load_scene(options.scene, load_options(options.ground, options.size)); });
     const Camera camera = reading([&] { return scene.camera(options.view); });
     const std::size_t light =
         reading([&] { return options.light.empty() ? std::size_t{0} : find_light(scene, options.light); });
-    for (const std::string& note : scene.notes) {
-        spdlog::info("{}: {}", options.scene, note);
-    }
+    progress.clear();
+    say_notes(options.scene, scene.notes);
     // Draw the frame.
     progress.step(1, 3, fmt::format("drawing {} with {}", options.scene, recipe.name));
     const std::unique_ptr<Device> device = Device::create({.validation = options.validate});
+    say_notes("device", device->info().notes);
     if (!options.show.empty()) {
         return show(options, *device, scene, camera, recipe, light, progress);
     }
     SceneGpu gpu = upload_scene(*device, scene);
-    FrameOptions frame_options;
-    frame_options.width = static_cast<uint>(options.size.width);
-    frame_options.height = static_cast<uint>(options.size.height);
-    const FrameResult frame = render_frame(*device, gpu, camera, recipe, frame_options);
+    const FrameResult frame = render_smooth(*device, gpu, camera, recipe, options.size, options.antialias);
+    progress.clear();
+    const std::size_t refused = say_refusals(scene, frame);
+    if (refused == scene.lights.size()) {
+        return exit_failed;
+    }
     // Expose it and write it.
-    progress.step(2, 3, "writing " + options.output);
     if (std::filesystem::path(options.output).extension() == ".exr") {
         write_exr(options.output, frame.picture);
     } else {
@@ -125,13 +194,9 @@ int run(const RenderOptions& options) {
     if (!options.visibility.empty()) {
         write_visibility(options.visibility, scene, frame);
     }
-    progress.clear();
     fmt::print("{}: {} with {}, {}x{}, {} lights, on {}\n", options.output, scene.name, recipe.name, options.size.width,
                options.size.height, scene.lights.size(), device->info().name);
-    const std::size_t refused = report_refusals(scene, frame);
-    for (const std::string& remark : frame.remarks) {
-        fmt::print(stderr, "gnomon: note: {}\n", remark);
-    }
+    say_remarks(scene, camera, recipe, frame);
     for (const std::string& message : device->messages()) {
         fmt::print(stderr, "gnomon: validation: {}\n", message);
     }

@@ -27,6 +27,11 @@ struct Refusal : Error {
     using Error::Error;
 };
 
+/// The device or the host has no room for something.
+struct OutOfMemory : Error {
+    using Error::Error;
+};
+
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
     throw Error(fmt::format(format, std::forward<Args>(args)...));

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -67,6 +68,24 @@ fs::path find_cache() {
 }
 
 }  // namespace
+
+bool has_room(const fs::path& folder, std::uintmax_t bytes) {
+    std::error_code code;
+    fs::path there = fs::absolute(folder, code);
+    while (!fs::is_directory(there, code) && there.has_relative_path()) {
+        there = there.parent_path();
+    }
+    // The name is gone at once; the bytes are when the file is closed.
+    std::string name = (there / ".gnomon-room-XXXXXX").string();
+    const int file = mkstemp(name.data());
+    if (file < 0) {
+        return false;
+    }
+    unlink(name.c_str());
+    const bool room = posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0;
+    close(file);
+    return room;
+}
 
 const fs::path& data_root() {
     static const fs::path root = find_data();

@@ -32,6 +32,7 @@ class VulkanDevice final : public Device {
         const char* variable = std::getenv("GNOMON_DEVICE");
         const std::string pick = options.pick.empty() && variable != nullptr ? variable : options.pick;
         candidate_ = candidates[choose(candidates, pick)];
+        candidate_.info.notes = instance_->notes();
         vk_instance_ = instance_->vk();
         queue_family_ = candidate_.queue_family;
         create_device();

@@ -24,9 +24,10 @@ void vk_check(VkResult result, const char* call, const char* file, int line);
 #define GN_VK(call) ::gn::vk_check((call), #call, __FILE__, __LINE__)
 
 struct DeviceInfo {
-    std::string name, driver;  ///< "llvmpipe (LLVM 15.0.6, 256 bits)", "Mesa 22.3.6 (LLVM 15.0.6)"
-    bool cpu = false;          ///< a software rasterizer: passes are timed by submits and the host clock
-    std::string why;           ///< one sentence: why this device was chosen
+    std::string name, driver;        ///< "llvmpipe (LLVM 15.0.6, 256 bits)", "Mesa 22.3.6 (LLVM 15.0.6)"
+    bool cpu = false;                ///< a software rasterizer: passes are timed by submits and the host clock
+    std::string why;                 ///< one sentence: why this device was chosen
+    std::vector<std::string> notes;  ///< what goes without on this machine, one sentence each
 };
 
 /// Optional features that parts may ask for. Each is queried; none is assumed.

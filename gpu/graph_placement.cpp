@@ -16,6 +16,10 @@ VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
+/// A heap is one allocation, which devices limit: further ones are opened beyond this many bytes, so that a frame with
+/// hundreds of lights is limited by the device's memory only. What is larger by itself gets a heap of its own.
+constexpr VkDeviceSize most_heap_bytes = VkDeviceSize{1} << 30U;
+
 /// The lowest offset where `footprint` fits between ranges that are taken.
 VkDeviceSize lowest_gap(std::vector<Placed> taken, const Footprint& footprint) {
     std::sort(taken.begin(), taken.end(), [](const Placed& a, const Placed& b) { return a.begin < b.begin; });
@@ -27,16 +31,6 @@ VkDeviceSize lowest_gap(std::vector<Placed> taken, const Footprint& footprint) {
         offset = std::max(offset, align_up(range.end, footprint.alignment));
     }
     return offset;
-}
-
-std::uint32_t heap_for(GraphPlan& plan, std::uint32_t type_bits) {
-    for (std::uint32_t heap = 0; heap < plan.heaps.size(); ++heap) {
-        if (plan.heaps[heap].type_bits == type_bits) {
-            return heap;
-        }
-    }
-    plan.heaps.push_back({type_bits, 0});
-    return static_cast<std::uint32_t>(plan.heaps.size() - 1);
 }
 
 /// First and last planned pass that touches each resource.
@@ -86,19 +80,30 @@ void place(const GraphDeclaration& declaration, const Footprints& footprints, Gr
     std::stable_sort(items.begin(), items.end(),
                      [](const Item& a, const Item& b) { return a.footprint->bytes > b.footprint->bytes; });
 
-    // Put each as low as those that are alive with it allow.
+    // Put each as low as those that are alive with it allow, in the first heap with room.
     for (std::size_t i = 0; i < items.size(); ++i) {
         Placement& placement = *items[i].placement;
-        placement.heap = heap_for(plan, items[i].footprint->type_bits);
-        placement.bytes = items[i].footprint->bytes;
-        std::vector<Placed> taken;
-        for (std::size_t j = 0; j < i; ++j) {
-            const Placement& other = *items[j].placement;
-            if (other.heap == placement.heap && other.first <= placement.last && placement.first <= other.last) {
-                taken.push_back({other.offset, other.offset + other.bytes});
+        const Footprint& footprint = *items[i].footprint;
+        placement.bytes = footprint.bytes;
+        for (placement.heap = 0;; ++placement.heap) {
+            if (placement.heap == plan.heaps.size()) {
+                plan.heaps.push_back({footprint.type_bits, 0});
+            }
+            if (plan.heaps[placement.heap].type_bits != footprint.type_bits) {
+                continue;
+            }
+            std::vector<Placed> taken;
+            for (std::size_t j = 0; j < i; ++j) {
+                const Placement& other = *items[j].placement;
+                if (other.heap == placement.heap && other.first <= placement.last && placement.first <= other.last) {
+                    taken.push_back({other.offset, other.offset + other.bytes});
+                }
+            }
+            placement.offset = lowest_gap(std::move(taken), footprint);
+            if (placement.offset == 0 || placement.offset + placement.bytes <= most_heap_bytes) {
+                break;
             }
         }
-        placement.offset = lowest_gap(std::move(taken), *items[i].footprint);
         Heap& heap = plan.heaps[placement.heap];
         heap.bytes = std::max(heap.bytes, placement.offset + placement.bytes);
     }

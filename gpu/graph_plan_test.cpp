@@ -336,6 +336,28 @@ TEST_F(Plan, AttachmentsOfDifferentSizesAreAnError) {
     EXPECT_NE(error.find("'mixed'"), std::string::npos) << error;
 }
 
+TEST_F(Plan, ManyKeptTexturesShareHeapsThatADeviceCanAllocate) {
+    // V of two hundred lights at 4096 x 2160: 34 MiB each, 6.6 GiB in all, which no device gives at once.
+    std::vector<TextureHandle> kept;
+    for (int i = 0; i < 200; ++i) {
+        kept.push_back(
+            graph.create(TextureDesc{.name = "V", .format = VK_FORMAT_R32_SFLOAT, .width = 4096, .height = 2160}));
+        graph.keep(kept.back());
+        pass("light", [&](PassBuilder& p) { p.storage_write(kept.back()); });
+    }
+    const GraphPlan& plan = graph.plan();
+    EXPECT_GT(plan.heaps.size(), 1U);
+    for (const Heap& heap : plan.heaps) {
+        EXPECT_LE(heap.bytes, VkDeviceSize{1} << 30U);
+    }
+    EXPECT_EQ(plan.transient_bytes(), 200ULL * 4096 * 2160 * 4);
+    // None shares its bytes with another that is alive with it.
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+        const Placement &a = plan.textures[kept[i - 1].index], &b = plan.textures[kept[i].index];
+        EXPECT_TRUE(a.heap != b.heap || a.offset + a.bytes <= b.offset || b.offset + b.bytes <= a.offset) << i;
+    }
+}
+
 TEST_F(Plan, ExecutingOnNothingStillAccounts) {
     graph.group("shadow");
     const auto t = texture("map", VK_FORMAT_D32_SFLOAT_S8_UINT);

@@ -56,17 +56,39 @@ bool has_instance_extension(const char* name) {
     });
 }
 
-/// Lavapipe compiles each shader for the processor; its disk cache saves a tenth of a second a pipeline.
-void keep_driver_cache() {
+std::string variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+/// Where Mesa keeps compiled shaders; "" where that cannot be told.
+std::string driver_cache() {
+    const std::string named = variable("MESA_SHADER_CACHE_DIR"), xdg = variable("XDG_CACHE_HOME"),
+                      home = variable("HOME");
+    return !named.empty() ? named : !xdg.empty() ? xdg : !home.empty() ? home + "/.cache" : "";
+}
+
+/// Lavapipe compiles each shader for the processor; its disk cache saves a tenth of a second a pipeline. It maps its index
+/// into memory: on a full disk, writing to it kills the process, so that it goes without where there is no room.
+void keep_driver_cache(std::vector<std::string>& notes) {
+    constexpr std::uintmax_t room = 16U << 20U;
     if (!cache_root().empty()) {
         setenv("MESA_SHADER_CACHE_DIR", (cache_root() / "mesa").c_str(), 0);
+    }
+    const std::string folder = driver_cache();
+    if (variable("MESA_SHADER_CACHE_DISABLE").empty() && !folder.empty() && !has_room(folder, room)) {
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+        notes.push_back(
+            fmt::format("'{}' has no room for {} MiB, so that compiled shaders go without a cache and every start "
+                        "takes longer; MESA_SHADER_CACHE_DIR names another folder",
+                        folder, room >> 20U));
     }
 }
 
 }  // namespace
 
 Instance::Instance(bool validation, MessageLog& log) {
-    keep_driver_cache();
+    keep_driver_cache(notes_);
     if (validation && !has_layer(validation_layer)) {
         fail("validation was asked for, but the layer {} is not installed", validation_layer);
     }

@@ -23,11 +23,14 @@ class Instance {
     Instance& operator=(const Instance&) = delete;
     [[nodiscard]] VkInstance vk() const { return instance_; }
     [[nodiscard]] bool labels() const { return labels_; }  ///< VK_EXT_debug_utils is on
+    /// What goes without on this machine, one sentence each.
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
   private:
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     bool labels_ = false;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace gn

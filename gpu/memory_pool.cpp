@@ -86,7 +86,8 @@ std::uint32_t MemoryPool::choose_type(std::uint32_t type_bits, MemoryUse use, st
 
 VkDeviceMemory MemoryPool::allocate_whole(VkDeviceSize bytes, std::uint32_t type, std::string_view what) {
     if (bytes > largest_) {
-        fail("{} needs {} MiB at once; this device allows {} MiB", what, bytes >> 20U, largest_ >> 20U);
+        throw OutOfMemory(
+            fmt::format("{} needs {} MiB at once; this device allows {} MiB", what, bytes >> 20U, largest_ >> 20U));
     }
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = bytes, .memoryTypeIndex = type};
@@ -103,7 +104,7 @@ VkDeviceMemory MemoryPool::allocate_whole(VkDeviceSize bytes, std::uint32_t type
         result = vkAllocateMemory(device_, &info, nullptr, &memory);
     }
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        fail("the device has no memory left for {} ({} MiB); use lower resolutions", what, bytes >> 20U);
+        throw OutOfMemory(fmt::format("the device has no memory left for {} ({} MiB)", what, bytes >> 20U));
     }
     vk_check(result, "vkAllocateMemory", __FILE__, __LINE__);
     return memory;

@@ -77,7 +77,7 @@ bool has_rim(const Occluders& occluders, const Blockers& blockers, vec4 position
 
 std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const vec4> position_ws,
                                     std::span<const vec4> normal_ws, std::span<const Surroundings> around,
-                                    const Light& light, int threads) {
+                                    const Light& light, int threads, bool (*asked_to_stop)()) {
     GN_CHECK_EQ(position_ws.size(), normal_ws.size());
     GN_CHECK_EQ(position_ws.size(), around.size());
     static const std::array<vec2, rim_rays> points = spread_points();
@@ -88,7 +88,8 @@ std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const 
     const auto work = [&](bool /*first*/) {
         for (std::size_t tile = next_tile++; tile * tile_size < rims.size() && !stop; tile = next_tile++) {
             const std::size_t end = std::min((tile + 1) * tile_size, rims.size());
-            for (std::size_t i = tile * tile_size; i < end; ++i) {
+            for (std::size_t i = tile * tile_size; i < end && !stop; ++i) {
+                stop = stop || (asked_to_stop != nullptr && asked_to_stop());
                 rims[i] =
                     has_rim(occluders, blockers, position_ws[i], normal_ws[i], around[i], light.shape, points) ? 1 : 0;
             }

@@ -23,9 +23,10 @@ inline constexpr std::uint32_t rim_rays = 256;
 /// Hits nearer to q than this many times its distance from the sample are its own surface.
 inline constexpr float rim_clearance = 2;
 
+/// Asks `stop`, where given, before every sample; once it says yes, the result is worth nothing.
 /// 1 where some point around a sample is hidden from the light's centre; 0 elsewhere, and where both axes are null.
 std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const vec4> position_ws,
                                     std::span<const vec4> normal_ws, std::span<const Surroundings> around,
-                                    const Light& light, int threads);
+                                    const Light& light, int threads, bool (*stop)() = nullptr);
 
 }  // namespace gn

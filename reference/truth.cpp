@@ -142,7 +142,7 @@ struct Job {
     std::span<const vec4> position_ws, normal_ws;
     const GnLight& light;
     const Plan& plan;
-    bool integral;
+    const TruthOptions& options;
     TruthResult& result;
     Blockers blockers, nothing;
     std::atomic<std::size_t> next_tile = 0, done = 0;
@@ -162,7 +162,7 @@ struct Job {
         result.counted[i] = receives ? 1 : 0;
         result.visibility[i] = static_cast<float>(estimate.visibility);
         result.standard_error[i] = static_cast<float>(estimate.standard_error);
-        if (integral) {
+        if (options.integral) {
             result.irradiance[i] = static_cast<float>(estimate.irradiance);
         }
     }
@@ -173,10 +173,18 @@ struct Job {
             return trace_single(occluders, by, seat, sampler, n_ws);
         }
         switch (occluders.width()) {
-            case 16: return trace_area<16>(occluders, by, plan, i, seat, sampler, n_ws, integral);
-            case 8: return trace_area<8>(occluders, by, plan, i, seat, sampler, n_ws, integral);
-            default: return trace_area<4>(occluders, by, plan, i, seat, sampler, n_ws, integral);
+            case 16: return trace_area<16>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
+            case 8: return trace_area<8>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
+            default: return trace_area<4>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
         }
+    }
+
+    /// Whether to leave the rest alone: one sample at the most samples takes a tenth of a second, a tile half a minute.
+    bool stopped() {
+        if (options.stop != nullptr && options.stop()) {
+            stop = true;
+        }
+        return stop;
     }
 
     /// Takes tiles until none is left; `after_tile` gets the fraction done.
@@ -184,7 +192,7 @@ struct Job {
         const std::size_t size = position_ws.size();
         for (std::size_t first = tile_size * next_tile++; first < size && !stop; first = tile_size * next_tile++) {
             const std::size_t end = std::min(first + tile_size, size);
-            for (std::size_t i = first; i < end; ++i) {
+            for (std::size_t i = first; i < end && !stopped(); ++i) {
                 trace_one(i);
             }
             done += end - first;
@@ -220,13 +228,14 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
             normal_ws,
             light.shape,
             plan,
-            options.integral,
+            options,
             result,
             occluders.blockers(&light),
             occluders.no_blockers()};
     in_parallel(
         options.threads, [&](bool first) { job.work(first ? progress : std::function<void(double)>{}); },
         [&] { job.stop = true; });
+    result.complete = !job.stop;
     if (progress) {
         progress(1.0);
     }
@@ -243,9 +252,9 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
 }
 
 std::vector<std::uint8_t> Truth::blocked_around(std::span<const vec4> position_ws, std::span<const vec4> normal_ws,
-                                                std::span<const Surroundings> around, const Light& light,
-                                                int threads) const {
-    return find_rims(impl_->occluders, position_ws, normal_ws, around, light, threads);
+                                                std::span<const Surroundings> around, const Light& light, int threads,
+                                                bool (*stop)()) const {
+    return find_rims(impl_->occluders, position_ws, normal_ws, around, light, threads, stop);
 }
 
 bool Truth::blocked(dvec3 p_ws, dvec3 q_ws) const {

@@ -13,8 +13,9 @@ namespace gn {
 struct TruthOptions {
     int samples = 256;  ///< of the light per view sample; rounded up to a power of two
     uint seed = 0;
-    int threads = 0;        ///< 0: all; changes nothing in the result
-    bool integral = false;  ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
+    int threads = 0;           ///< 0: all; changes nothing in the result
+    bool (*stop)() = nullptr;  ///< asked by every thread before every view sample; true leaves the rest untraced
+    bool integral = false;     ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
 };
 
 struct TruthResult {
@@ -24,6 +25,7 @@ struct TruthResult {
     std::vector<std::uint8_t> counted;
     /// With options.integral: [EASW09] eq. 1.3 without the material, lux; else empty. Range windows are left to shading.
     std::vector<float> irradiance;
+    bool complete = true;            ///< false where options.stop ended it: what it holds is worth nothing
     double mean_standard_error = 0;  ///< mean of standard_error over counted samples
     double seconds = 0;
 };
@@ -53,11 +55,11 @@ class Truth {
         return trace(position_ws, normal_ws, Light{.name = "", .shape = light, .spared = {}}, options, progress);
     }
     /// 1 where a part of the scene other than the sample's own surface hides the light's centre from some place around the
-    /// sample: the sample is beside a shadow, or in it. See reference/rims.h. threads as TruthOptions::threads.
+    /// sample: the sample is beside a shadow, or in it. See reference/rims.h. threads and stop as in TruthOptions.
     [[nodiscard]] std::vector<std::uint8_t> blocked_around(std::span<const vec4> position_ws,
                                                            std::span<const vec4> normal_ws,
                                                            std::span<const Surroundings> around, const Light& light,
-                                                           int threads = 0) const;
+                                                           int threads = 0, bool (*stop)() = nullptr) const;
     [[nodiscard]] std::vector<std::uint8_t> blocked_around(std::span<const vec4> position_ws,
                                                            std::span<const vec4> normal_ws,
                                                            std::span<const Surroundings> around, const GnLight& light,

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 namespace gn {
@@ -187,6 +188,23 @@ TEST(Truth, ProgressRisesToOneOnTheCallersThread) {
     const auto give_up = [](double) { throw std::runtime_error("enough"); };
     EXPECT_THROW((void)truth.trace(samples.position_ws, samples.normal_ws, slab.light, options, give_up),
                  std::runtime_error);
+}
+
+TEST(Truth, AStopEndsItBeforeTheNextSample) {
+    // A million rays a sample take hours for all of these; every thread asks before each of them.
+    const Slab slab;
+    const Samples samples = ground_samples(64, 1);
+    const Truth truth(slab.quads.scene);
+    static std::atomic<int> asked;
+    asked = 0;
+    TruthOptions options{.samples = 1 << 20, .threads = 2};
+    options.stop = [] { return ++asked > 4; };
+    const TruthResult stopped = truth.trace(samples.position_ws, samples.normal_ws, slab.light, options);
+    EXPECT_FALSE(stopped.complete);
+    EXPECT_LT(asked, 16);
+    options = {.samples = 4};
+    options.stop = [] { return false; };
+    EXPECT_TRUE(truth.trace(samples.position_ws, samples.normal_ws, slab.light, options).complete);
 }
 
 TEST(Truth, UncountedSamplesStayZero) {

@@ -5,6 +5,7 @@
 #include "shadow/check_recipe.h"
 #include "shadow/history.h"
 #include "shadow/lookup/expect.h"
+#include "shadow/map_memory.h"
 #include "shadow/placement/place.h"
 #include "shadow/view/read_back.h"
 
@@ -22,6 +23,7 @@ Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
         const LightViews views = place_views(input, recipe);
         ShadowMap map = recipe.map->add_map(input, recipe, views);
         map.part = recipe.map;
+        check_map_memory(input, recipe, map.texture);
         visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
                                                           : add_resolve(input, recipe, views, map);
     }
@@ -129,7 +131,11 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
     const BuiltFrame frame = build(graph, scene, camera, recipe, options, result.refused);
 
     // The first run pays for shader compilation; the repeats are timed.
-    graph.execute(false);
+    try {
+        graph.execute(false);
+    } catch (const OutOfMemory& problem) {
+        throw OutOfMemory(with_less_memory(problem.what(), recipe));
+    }
     for (int i = 0; i < options.repeat; ++i) {
         graph.execute(true);
         record_times(graph.statistics(), result);

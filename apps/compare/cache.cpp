@@ -144,6 +144,17 @@ fs::path ResultCache::file(const std::string& kind, const std::string& key, cons
     return folder_ / "results" / fmt::format("{}-{}.{}", kind, key, extension);
 }
 
+void ResultCache::keep(const std::function<void()>& body) const {
+    try {
+        body();
+    } catch (const Error& error) {
+        if (!warned_) {
+            spdlog::warn("results are not kept for a later run: {}", error.what());
+        }
+        warned_ = true;
+    }
+}
+
 bool ResultCache::picture_exists(const std::string& name) const {
     std::error_code code;
     return name.empty() || fs::is_regular_file(folder_ / name, code);
@@ -172,7 +183,7 @@ std::optional<RunResult> ResultCache::find_run(const std::string& key) const {
 
 void ResultCache::store(const std::string& key, const RunResult& run) const {
     if (!folder_.empty()) {
-        write_text(file("run", key, "json"), dump(run_json(run, true), 1));
+        keep([&] { write_text(file("run", key, "json"), dump(run_json(run, true), 1)); });
     }
 }
 
@@ -193,7 +204,7 @@ std::optional<ReferenceResult> ResultCache::find_reference(const std::string& ke
 
 void ResultCache::store(const std::string& key, const ReferenceResult& reference) const {
     if (!folder_.empty()) {
-        write_text(file("reference", key, "json"), dump(reference_json(reference), 1));
+        keep([&] { write_text(file("reference", key, "json"), dump(reference_json(reference), 1)); });
     }
 }
 
@@ -235,10 +246,12 @@ void ResultCache::store(const std::string& key, const TruthResult& truth, int wi
         stored.values[3 * p + 2] = truth.counted[p] != 0 ? 1.0F : 0.0F;
     }
     // The numbers come last: they say that the picture is complete.
-    write_exr(file("truth", key, "exr"), stored);
     const nlohmann::ordered_json numbers{{"seconds", truth.seconds},
                                          {"mean_standard_error", truth.mean_standard_error}};
-    write_text(file("truth", key, "json"), dump(numbers, 1));
+    keep([&] {
+        write_exr(file("truth", key, "exr"), stored);
+        write_text(file("truth", key, "json"), dump(numbers, 1));
+    });
 }
 
 }  // namespace gn

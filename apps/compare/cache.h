@@ -9,6 +9,7 @@
 #include "shadow/stages.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace gn {
@@ -42,7 +43,10 @@ class ResultCache {
     std::filesystem::path folder_;
     bool read_ = false;
     int width_ = 0, height_ = 0, samples_ = 0, repeat_ = 0, threads_ = 0;
+    /// Writes by `body`; where that fails, says once that nothing is kept: it costs a repetition, not the run.
+    void keep(const std::function<void()>& body) const;
     bool validate_ = false;
+    mutable bool warned_ = false;
     std::string light_, stamp_;
 };
 

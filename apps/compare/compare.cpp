@@ -2,6 +2,7 @@
 // gnomon compare: every recipe on every scene; each finished run is written at once.
 #include "apps/compare/measure.h"
 #include "apps/compare/publish.h"
+#include "apps/notes.h"
 #include "apps/options.h"
 #include "apps/output.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <set>
 
 namespace gn {
 namespace {
@@ -62,6 +64,7 @@ class Comparer {
           against_(against),
           bench_(options.validate),
           cache_(options.folder, options.fresh, options, bench_.device().info()) {
+        say_notes("device", bench_.device().info().notes);
         comparison_.device = bench_.device().info();
         comparison_.command = options.command;
         comparison_.against = options.against;
@@ -92,6 +95,8 @@ class Comparer {
             fail_scene(asked, recipes, sentence);
             return;
         }
+        // Now there is something to report: until here nothing was touched that an earlier comparison left.
+        prepare_folder();
         const std::size_t index = comparison_.scenes.size();
         comparison_.scenes.push_back(view->result);
         for (std::size_t r = 0; r < recipes.size() && !stopping(); ++r) {
@@ -107,9 +112,15 @@ class Comparer {
     void open(std::optional<ViewSession>& view, const std::string& asked) {
         view.emplace(asked, options_, against_);
         view->name_in(cache_);
-        for (const std::string& note : view->scene().notes) {
-            spdlog::info("{}: {}", asked, note);
+        progress_.clear();
+        say_notes(asked, view->scene().notes);
+    }
+
+    void prepare_folder() {
+        if (!prepared_ && !options_.folder.empty()) {
+            prepare_report(options_.folder);
         }
+        prepared_ = true;
     }
 
     /// Adds the run, from the cache or measured; false when the user asked to stop before it was complete.
@@ -122,24 +133,22 @@ class Comparer {
         }
         // Trace what is missing, then measure; what fails becomes a failed run.
         RunResult run;
-        bool stopped = false;
-        const std::string sentence = failure_of([&] {
-            progress_.step(step - 1, steps, fmt::format("{}: tracing the truth", view.result.scene));
-            stopped = !view.prepare(bench_, cache_, progress_);
-            if (stopped) {
-                return;
-            }
-            progress_.step(step, steps, fmt::format("{}: {}", view.result.scene, asked.text));
-            run = measure(view, bench_, asked, key, options_);
-        });
-        if (stopped) {
+        std::string sentence;
+        try {
+            sentence = failure_of([&] {
+                progress_.step(step - 1, steps, fmt::format("{}: tracing the truth", view.result.scene));
+                view.prepare(bench_, cache_, progress_);
+                progress_.step(step, steps, fmt::format("{}: {}", view.result.scene, asked.text));
+                run = measure(view, bench_, asked, key, options_);
+            });
+        } catch (const Stopped&) {
             return false;
         }
         if (!sentence.empty()) {
             run = failed_run(view.result.scene, asked, sentence);
             recover(view);
         }
-        if (run.status == "ok") {
+        if (run.status == "ok" || run.status == "empty") {
             cache_.store(key, run);
         }
         take(std::move(run));
@@ -199,36 +208,59 @@ class Comparer {
     }
 
     void take(RunResult run) {
+        progress_.clear();
+        const std::string of = fmt::format("{} with {}", run.scene, run.recipe);
         // A run that left lights out is ok, but nobody should have to find that out from the figures.
-        bool light_refused = false;
-        for (const LightResult& light : run.lights) {
-            if (light.status == "refused" && run.status == "ok") {
-                light_refused = true;
-                progress_.clear();
-                fmt::print(stderr, "gnomon: {} with {}: light '{}' refused: {}\n", run.scene, run.recipe, light.name,
-                           light.reason);
-            }
-        }
+        const bool light_refused = run.status == "ok" && say_lights(run, of);
         for (const std::string& remark : run.remarks) {
-            progress_.clear();
-            fmt::print(stderr, "gnomon: {} with {}: note: {}\n", run.scene, run.recipe, remark);
+            say_once(of, run.scene, remark);
         }
         if (run.status == "failed") {
             worsen(exit_failed);
         }
-        if (options_.strict && (run.status == "refused" || light_refused)) {
+        if (options_.strict && (run.status == "refused" || run.status == "empty" || light_refused)) {
             worsen(exit_failed);
         }
         if (run.status != "ok") {
-            progress_.clear();
-            fmt::print(stderr, "gnomon: {} with {} {}: {}\n", run.scene, run.recipe, run.status, run.reason);
+            fmt::print(stderr, "gnomon: {} {}: {}\n", of, run.status, run.reason);
         }
         comparison_.runs.push_back(std::move(run));
     }
 
+    /// Says which lights of a run have no figures, a line a reason; true when some were refused.
+    bool say_lights(const RunResult& run, const std::string& of) {
+        std::vector<LightReason> refused;
+        std::vector<std::string> empty;
+        for (const LightResult& light : run.lights) {
+            if (light.status == "refused") {
+                refused.emplace_back(light.name, light.reason);
+            } else if (light.status == "empty") {
+                empty.push_back(light.reason);
+            }
+        }
+        for (const std::string& sentence : grouped_reasons(refused, " refused")) {
+            fmt::print(stderr, "gnomon: {}: {}\n", of, sentence);
+        }
+        for (const std::string& sentence : grouped(empty)) {
+            say_once(of, run.scene, sentence);
+        }
+        return !refused.empty();
+    }
+
+    /// What is true of a view whatever the recipe is said with the first of them.
+    void say_once(const std::string& of, const std::string& scene, const std::string& note) {
+        if (said_.insert(scene + "\n" + note).second) {
+            say_notes(of, {&note, 1});
+        }
+    }
+
     [[nodiscard]] bool stopping() const { return abandoned_ || stop_requested(); }
 
+    /// Writes report and figures, once there is a scene that could be read and a run to show.
     void publish() {
+        if (!prepared_ || comparison_.runs.empty()) {
+            return;
+        }
         if (!options_.folder.empty()) {
             write_report(options_.folder, comparison_);
         }
@@ -247,6 +279,9 @@ class Comparer {
             fmt::print("{}\n", dump(contract_json(comparison_), 2));
             return;
         }
+        if (!prepared_) {
+            return;
+        }
         fmt::print("{}", summary_table(comparison_));
         fmt::print("on {} ({})\n", comparison_.device.name, comparison_.device.driver);
         fmt::print("{}", options_.folder.empty() ? "" : fmt::format("report: {}/index.html\n", options_.folder));
@@ -258,7 +293,9 @@ class Comparer {
     ResultCache cache_;
     Progress progress_;
     Comparison comparison_;
+    std::set<std::string> said_;
     int status_ = exit_done;
+    bool prepared_ = false;   ///< a scene was read, and the report's folder made
     bool abandoned_ = false;  ///< no device can be had any more
 };
 
@@ -284,7 +321,7 @@ int run(const CompareOptions& asked) {
         check_writable_parent("--json", options.json);
     }
     if (!options.folder.empty()) {
-        prepare_report(options.folder);
+        check_report(options.folder);
     }
     // A software device reads its number of threads once, when it is made.
     if (options.threads > 0) {

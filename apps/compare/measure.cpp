@@ -3,7 +3,9 @@
 
 #include "apps/compare/path.h"
 #include "apps/compare/pictures.h"
+#include "apps/notes.h"
 #include "apps/output.h"
+#include "apps/reach.h"
 #include "shadow/lookup/show.h"
 #include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
@@ -39,6 +41,9 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
     std::string command =
         fmt::format("gnomon compare {} -r {} --size {}x{} --samples {} --repeat {}", shell_word(scene),
                     shell_word(recipe), options.size.width, options.size.height, options.samples, options.repeat);
+    command += options.ground.height       ? fmt::format(" --ground {}", *options.ground.height)
+               : !options.ground.automatic ? " --ground none"
+                                           : "";
     command += options.view.empty() ? "" : " --view " + shell_word(options.view);
     command += options.light.empty() ? "" : " --light " + shell_word(options.light);
     command += options.against.empty() ? "" : " --against " + shell_word(options.against);
@@ -117,6 +122,12 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             light.reason = frame.refused[l];
         } else {
             const TruthResult& truth = view.truth(l);
+            const Reach reach = reach_of(view.samples(), view.scene().lights[l].shape, truth.visibility);
+            light.reason = empty_reason(reach, light.name, view.camera().name);
+            light.status = light.reason.empty() ? "ok" : "empty";
+            if (const std::string remark = shadow_remark(reach, light.name); !remark.empty()) {
+                run.remarks.push_back(remark);
+            }
             light.errors =
                 visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
             weigh_errors(light.errors, frame.visibility[l].values, truth.visibility, truth.counted,
@@ -152,8 +163,8 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
 /// Both pictures with the same lights shadowed: what was refused stays lit in the technique's and in the reference's.
 void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const FrameResult& frame,
                       const std::vector<bool>& served, const PictureNames& names) {
-    const bool all = std::all_of(run.lights.begin(), run.lights.end(),
-                                 [](const LightResult& light) { return light.status == "ok"; });
+    const bool all = std::none_of(run.lights.begin(), run.lights.end(),
+                                  [](const LightResult& light) { return light.status == "refused"; });
     const Image technique = tonemap(frame.picture, view.exposure());
     const Image reference = all ? view.reference_picture() : view.picture_of(bench, view.reference_visibility(served));
     run.errors.luma_rms = luma_rms(technique, reference);
@@ -195,19 +206,23 @@ void account(RunResult& run, const FrameResult& frame) {
     }
 }
 
-/// The distinct reasons of all lights in one sentence.
-std::string joined_reasons(const RunResult& run) {
-    std::vector<std::string> reasons;
+/// Settles what the run as a whole is: ok where something was measured for some light.
+void judge(RunResult& run) {
+    const auto any = [&](std::string_view status) {
+        return std::any_of(run.lights.begin(), run.lights.end(), [&](const auto& l) { return l.status == status; });
+    };
+    run.status = any("ok") ? "ok" : any("empty") ? "empty" : "refused";
+    if (run.status == "ok") {
+        return;
+    }
+    // One reason for all, as where the view sees nothing, needs no list of lights.
+    std::vector<LightReason> reasons;
+    bool same = true;
     for (const LightResult& light : run.lights) {
-        if (std::find(reasons.begin(), reasons.end(), light.reason) == reasons.end()) {
-            reasons.push_back(light.reason);
-        }
+        reasons.emplace_back(light.name, light.reason);
+        same = same && light.reason == run.lights.front().reason;
     }
-    std::string sentence;
-    for (const std::string& reason : reasons) {
-        sentence += (sentence.empty() ? "" : "; ") + reason;
-    }
-    return sentence;
+    run.reason = same && run.status == "empty" ? run.lights.front().reason : joined_reasons(reasons);
 }
 
 }  // namespace
@@ -249,13 +264,16 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     const PictureNames names{options.folder, fmt::format("pictures/{}-{}-{}", slug(view.result.name),
                                                          slug(asked.recipe.name), run_key.substr(0, 8))};
     const std::vector<bool> served = measure_lights(run, view, bench, asked.recipe, frame, names);
-    if (std::find(served.begin(), served.end(), true) == served.end()) {
-        run.status = "refused";
-        run.reason = joined_reasons(run);
+    judge(run);
+    if (run.status == "refused") {
         return run;
     }
     measure_pictures(run, view, bench, frame, served, names);
     account(run, frame);
+    if (run.status == "empty") {
+        run.errors = {};
+        return run;
+    }
     show_inside(run, view, bench, asked.recipe, served, names);
     if (view.path() != nullptr) {
         measure_path(run, view, bench, asked.recipe);

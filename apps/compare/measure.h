@@ -16,7 +16,7 @@ struct AskedRecipe {
 /// What is known before anything is drawn.
 RunResult describe_run(const std::string& scene, const AskedRecipe& asked, const CompareOptions& options);
 
-/// Draws and measures. Writes pictures when there is a report folder. Throws Error.
+/// Draws and measures. Writes pictures when there is a report folder. Throws Error, and Stopped.
 RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, const std::string& run_key,
                   const CompareOptions& options);
 

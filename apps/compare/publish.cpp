@@ -48,6 +48,20 @@ std::string milliseconds(std::optional<double> value) {
 
 }  // namespace
 
+void check_report(const fs::path& folder) {
+    // The nearest folder that is there decides.
+    std::error_code code;
+    fs::path there = fs::absolute(folder, code).lexically_normal();
+    while (!fs::exists(there, code) && there.has_relative_path()) {
+        there = there.parent_path();
+    }
+    if (!fs::is_directory(there, code) || access(there.c_str(), W_OK | X_OK) != 0) {
+        throw InputError(
+            fmt::format("-o {}: the folder cannot be made or written to: {} is no folder that can be written to",
+                        folder.string(), there.string()));
+    }
+}
+
 void prepare_report(const fs::path& folder) {
     std::error_code code;
     for (const char* inside : {"pictures", "results"}) {

@@ -8,6 +8,8 @@
 
 namespace gn {
 
+/// Throws InputError where DIR could not be made or written to. Touches nothing.
+void check_report(const std::filesystem::path& folder);
 /// Makes DIR with its folders and what the report always needs. Throws InputError when it cannot be written.
 void prepare_report(const std::filesystem::path& folder);
 /// Writes DIR/index.html, complete in itself but for the pictures beside it. Throws Error.

@@ -24,7 +24,7 @@ struct Spread {
 Spread spread_of(const std::vector<double>& values);
 
 struct LightResult {
-    std::string name, status = "ok", reason;  ///< status: ok or refused
+    std::string name, status = "ok", reason;  ///< status: ok, refused, or empty: no view sample counts for it
     Errors errors;
     std::string error_map;  ///< file beside the report, or ""
 };
@@ -45,8 +45,9 @@ struct InsideResult {
     bool of_view = true;  ///< as large as the view
 };
 
-/// One recipe on one view of one scene. `status` is ok when at least one light was served; lights that were refused
-/// say so themselves. It is refused when every light was, and failed when no figure can be trusted.
+/// One recipe on one view of one scene. `status` is ok when something was measured for at least one light; lights that
+/// were refused or reach nothing say so themselves. It is refused when every light was, empty when nothing could be
+/// measured for those that were served, and failed when no figure can be trusted.
 struct RunResult {
     std::string scene, view, recipe, overrides;
     int width = 0, height = 0;
@@ -57,12 +58,12 @@ struct RunResult {
     std::vector<PassResult> passes;
     std::uint64_t bytes = 0;
     std::vector<ResourceResult> resources;
+    std::vector<std::string> remarks;  ///< limits of the recipe that show in this scene, lights that leave all dark
 
     // For the report only.
     std::string title, citation, paragraph, picture, error_map, command;
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<InsideResult> inside;
-    std::vector<std::string> remarks;                 ///< limits of the recipe that show in this scene
     std::string path;                                 ///< the camera path that was followed, or ""
     std::vector<std::optional<double>> path_flicker;  ///< of each of its steps, served lights pooled
 };

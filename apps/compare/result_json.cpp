@@ -110,7 +110,6 @@ void add_report_fields(ordered_json& json, const RunResult& run) {
                                   {"legend", shown.legend},
                                   {"of_view", shown.of_view}});
     }
-    json["remarks"] = run.remarks;
     json["path"] = run.path;
     json["path_flicker"] = ordered_json::array();
     for (const std::optional<double>& step : run.path_flicker) {
@@ -118,15 +117,19 @@ void add_report_fields(ordered_json& json, const RunResult& run) {
     }
 }
 
-ordered_json scene_json(const SceneResult& scene) {
+ordered_json scene_json(const SceneResult& scene, bool for_report) {
     ordered_json lights = ordered_json::array();
     for (const LightInfo& light : scene.lights) {
         lights.push_back({{"name", light.name}, {"kind", light.kind}, {"size", light.size}});
     }
-    return {{"scene", scene.scene},         {"name", scene.name},
-            {"view", scene.view},           {"size", {scene.width, scene.height}},
-            {"triangles", scene.triangles}, {"lights", lights},
-            {"notes", scene.notes},         {"reference", reference_json(scene.reference)}};
+    ordered_json json{{"scene", scene.scene},         {"name", scene.name},
+                      {"view", scene.view},           {"size", {scene.width, scene.height}},
+                      {"triangles", scene.triangles}, {"lights", lights},
+                      {"notes", scene.notes}};
+    if (for_report) {
+        json["reference"] = reference_json(scene.reference);
+    }
+    return json;
 }
 
 /// All references as one: seconds add up, standard errors are averaged over the scenes that have one.
@@ -143,7 +146,10 @@ ordered_json overall_reference(const Comparison& comparison) {
 }
 
 ordered_json document(const Comparison& comparison, bool for_report) {
-    ordered_json runs = ordered_json::array();
+    ordered_json scenes = ordered_json::array(), runs = ordered_json::array();
+    for (const SceneResult& scene : comparison.scenes) {
+        scenes.push_back(scene_json(scene, for_report));
+    }
     for (const RunResult& run : comparison.runs) {
         runs.push_back(run_json(run, for_report));
     }
@@ -154,6 +160,7 @@ ordered_json document(const Comparison& comparison, bool for_report) {
                         {"kind", comparison.device.cpu ? "cpu" : "gpu"},
                         {"driver", comparison.device.driver}}},
                       {"reference", overall_reference(comparison)},
+                      {"scenes", scenes},
                       {"runs", runs}};
     return json;
 }
@@ -185,7 +192,8 @@ ordered_json run_json(const RunResult& run, bool for_report) {
                       {"weighted", weighted_json(run.errors.weighted)},
                       {"lights", lights},
                       {"time_ms", times_json(run)},
-                      {"memory", memory_json(run)}};
+                      {"memory", memory_json(run)},
+                      {"remarks", run.remarks}};
     if (for_report) {
         add_report_fields(json, run);
     }
@@ -262,10 +270,6 @@ ordered_json report_json(const Comparison& comparison) {
     json["command"] = comparison.command;
     json["against"] = comparison.against;
     json["repeat"] = comparison.repeat;
-    json["scenes"] = ordered_json::array();
-    for (const SceneResult& scene : comparison.scenes) {
-        json["scenes"].push_back(scene_json(scene));
-    }
     json["metrics"] = ordered_json::array();
     for (const MetricInfo& metric : all_metrics()) {
         json["metrics"].push_back({{"name", metric.name}, {"sentence", metric.sentence}});

@@ -52,7 +52,7 @@ void Bench::replace() {
 ViewSession::ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against)
     : options_(options), against_(against) {
     reading([&] {
-        scene_ = std::make_unique<Scene>(load_scene(asked));
+        scene_ = std::make_unique<Scene>(load_scene(asked, load_options(options.ground, options.size)));
         camera_ = scene_->camera(options.view);
         only_light_ = options.light.empty() ? -1 : static_cast<int>(find_light(*scene_, options.light));
         path_ = options.follow_path ? &find_path(*scene_, options.path) : nullptr;
@@ -86,20 +86,18 @@ SceneGpu& ViewSession::gpu(Bench& bench) {
     return *gpu_;
 }
 
-bool ViewSession::prepare(Bench& bench, const ResultCache& cache, Progress& progress) {
+void ViewSession::prepare(Bench& bench, const ResultCache& cache, Progress& progress) {
     if (ready_) {
-        return true;
+        return;
     }
     if (samples_.position_ws.empty()) {
         samples_ = render_samples(bench.device(), gpu(bench), camera_, static_cast<uint>(options_.size.width),
                                   static_cast<uint>(options_.size.height));
     }
-    if (!trace_lights(cache, progress) || !trace_path(bench, cache, progress)) {
-        return false;
-    }
+    trace_lights(cache, progress);
+    trace_path(bench, cache, progress);
     account(cache, bench);
     ready_ = true;
-    return true;
 }
 
 const Truth& ViewSession::tracer() {
@@ -107,8 +105,12 @@ const Truth& ViewSession::tracer() {
 }
 
 std::vector<std::uint8_t> ViewSession::beside_shadow(std::size_t light, std::span<const Surroundings> around) {
-    return tracer().blocked_around(samples_.position_ws, samples_.normal_ws, around, scene_->lights[light],
-                                   options_.threads);
+    std::vector<std::uint8_t> rims = tracer().blocked_around(samples_.position_ws, samples_.normal_ws, around,
+                                                             scene_->lights[light], options_.threads, stop_requested);
+    if (stop_requested()) {
+        throw Stopped();
+    }
+    return rims;
 }
 
 TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
@@ -117,30 +119,30 @@ TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& sa
     std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height);
     if (!truth) {
         truth = tracer().trace(samples.position_ws, samples.normal_ws, scene_->lights[light],
-                               {.samples = options_.samples, .threads = options_.threads}, progress);
+                               {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested},
+                               progress);
+        if (!truth->complete) {
+            throw Stopped();
+        }
         cache.store(key, *truth, options_.size.width, options_.size.height);
     }
     truth->standard_error = {};
     return std::move(*truth);
 }
 
-bool ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
+void ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
     const auto count = static_cast<double>(result.lights.size());
     double done = 0;
     for (std::size_t l = 0; l < truth_.size(); ++l) {
         if (!wanted(l) || truth_[l]) {
             continue;
         }
-        if (stop_requested()) {
-            return false;
-        }
         truth_[l] = truth_of(cache, samples_, l, [&](double part) { progress.within((done + part) / count); });
         done += 1;
     }
-    return true;
 }
 
-bool ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& progress) {
+void ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& progress) {
     const std::size_t frames = path_ != nullptr ? path_->frames.size() : 0;
     while (path_truth_.size() < frames) {
         const std::size_t frame = path_truth_.size();
@@ -150,9 +152,6 @@ bool ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& p
                            static_cast<uint>(options_.size.height));
         std::vector<PathTruth> lights(truth_.size());
         for (std::size_t l = 0; l < lights.size(); ++l) {
-            if (stop_requested()) {
-                return false;
-            }
             if (wanted(l)) {
                 TruthResult truth = truth_of(cache, samples, l, {});
                 path_seconds_ += truth.seconds;
@@ -161,7 +160,6 @@ bool ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& p
         }
         path_truth_.push_back(std::move(lights));
     }
-    return true;
 }
 
 void ViewSession::account(const ResultCache& cache, Bench& bench) {

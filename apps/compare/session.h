@@ -28,6 +28,9 @@ class Bench {
     std::unique_ptr<Device> device_;
 };
 
+/// Thrown where the user asked to stop while something was traced.
+struct Stopped {};
+
 /// The truth of one light in one frame of a path.
 struct PathTruth {
     std::vector<float> visibility;
@@ -40,9 +43,8 @@ class ViewSession {
     /// `against`: what all recipes are held against besides the truth, or null.
     ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against);
 
-    /// Traces (or finds in the cache) what is missing of the truth. May be called again. Throws Error;
-    /// returns false when the user asked to stop.
-    bool prepare(Bench& bench, const ResultCache& cache, Progress& progress);
+    /// Traces (or finds in the cache) what is missing of the truth. May be called again. Throws Error, and Stopped.
+    void prepare(Bench& bench, const ResultCache& cache, Progress& progress);
     /// Forgets everything that lives on the device.
     void release_device() { gpu_.reset(); }
     [[nodiscard]] SceneGpu& gpu(Bench& bench);
@@ -56,13 +58,14 @@ class ViewSession {
     /// Throws Error.
     const FrameResult* against(Bench& bench);
 
-    /// 1 where some place within a sample's surroundings is hidden from the light. Throws Error.
+    /// 1 where some place within a sample's surroundings is hidden from the light. Throws Error, and Stopped.
     [[nodiscard]] std::vector<std::uint8_t> beside_shadow(std::size_t light, std::span<const Surroundings> around);
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const TruthResult& truth(std::size_t light) const { return *truth_.at(light); }
+    [[nodiscard]] const CpuSamples& samples() const { return samples_; }
     [[nodiscard]] const CameraPath* path() const { return path_; }  ///< null where none is followed
     [[nodiscard]] const PathTruth& path_truth(std::size_t frame, std::size_t light) const {
         return path_truth_.at(frame).at(light);
@@ -79,9 +82,9 @@ class ViewSession {
   private:
     /// Made when first asked for: where all is in the cache, nothing is traced.
     const Truth& tracer();
-    bool trace_lights(const ResultCache& cache, Progress& progress);
-    bool trace_path(Bench& bench, const ResultCache& cache, Progress& progress);
-    /// From the cache, or traced.
+    void trace_lights(const ResultCache& cache, Progress& progress);
+    void trace_path(Bench& bench, const ResultCache& cache, Progress& progress);
+    /// From the cache, or traced. Throws Stopped.
     TruthResult truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
                          const std::function<void(double)>& progress);
     void account(const ResultCache& cache, Bench& bench);

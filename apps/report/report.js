@@ -33,9 +33,21 @@ function bytes(value) {
 const fullName = run => run.overrides ? `${run.recipe}, ${run.overrides.replaceAll(',', ', ')}` : run.recipe;
 const nameOf = run => [run.recipe, run.overrides ? el('span', {class: 'override'}, ' ' + run.overrides.replaceAll(',', ', ')) : null];
 const refusedLights = run => run.status === 'ok' ? run.lights.filter(light => light.status === 'refused') : [];
+// One line a reason; reasons that differ in the light's own name only are one.
+function groupedReasons(lights) {
+  const groups = new Map();
+  for (const light of lights) {
+    const kind = light.reason.replace(`'${light.name}'`, "''");
+    groups.set(kind, [...(groups.get(kind) || []), light]);
+  }
+  return [...groups.values()].map(group => {
+    const names = group.slice(0, 3).map(light => `'${light.name}'`).join(', ') + (group.length > 3 ? ` and ${group.length - 3} more` : '');
+    return `${group.length > 1 ? `${group.length} lights (${names})` : `light ${names}`}: ${group[0].reason}`;
+  });
+}
 function shortOf(run) {
   const refused = refusedLights(run);
-  return refused.length ? el('span', {class: 'status refused', title: refused.map(light => `${light.name}: ${light.reason}`).join('\n')},
+  return refused.length ? el('span', {class: 'status refused', title: groupedReasons(refused).join('\n')},
     `${run.lights.length - refused.length} of ${run.lights.length} lights`) : null;
 }
 const statusOf = item => el('span', {class: 'status ' + item.status}, item.status);
@@ -302,6 +314,7 @@ function runDetails(run) {
     run.paragraph ? el('p', {}, run.paragraph, run.citation ? ` [${run.citation}]` : '') : null,
     ...run.remarks.map(remark => el('p', {}, el('strong', {}, 'Note: '), `${remark}.`)),
     run.reason ? el('p', {}, statusOf(run), ' ', run.reason) : null,
+    run.status === 'ok' ? groupedReasons(run.lights.filter(light => light.reason)).map(line => el('p', {}, el('strong', {}, 'Left out: '), line)) : [],
     command(run.command),
     el('div', {class: 'columns'},
       run.parameters.length ? plainTable('Parameters', ['parameter', 'value'], run.parameters.map(item => [item.name, item.value])) : null,

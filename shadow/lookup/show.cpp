@@ -4,6 +4,7 @@
 
 #include "shadow/history.h"
 #include "shadow/lookup/show_passes.h"
+#include "shadow/map_memory.h"
 #include "shadow/placement/place.h"
 #include "shadow/view/read_back.h"
 
@@ -83,6 +84,7 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     built.views = place_views(input, recipe);
     if (asked(names, "map")) {
         built.map = recipe.map->add_map(input, recipe, built.views);
+        check_map_memory(input, recipe, built.map.texture);
         built.map_tiles = add_layer_tiles(input, built.map.texture);
         graph.keep(built.map_tiles.image);
     }
