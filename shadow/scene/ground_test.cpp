@@ -56,6 +56,24 @@ TEST(Ground, IsMissedWhereLittleLooksUpNearTheLowestPoint) {
     }
 }
 
+TEST(Ground, AVastPlaneIsAFloorThoughItIsNoPartOfTheMainMass) {
+    // A hundred boxes as a town of 20 m in the middle of a plane of 2 km, sunk into it by a little.
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        const vec3 at(2.0F * static_cast<float>(i % 10) - 10, -0.1F, 2.0F * static_cast<float>(i / 10) - 10);
+        add_box(scene, at, at + vec3(1, 3, 1));
+    }
+    add_sheet(scene, 1000, 0);
+    finish_scene(scene);
+    ASSERT_LT(main_bounds(scene).extent().x, 100.0F);
+    EXPECT_TRUE(has_floor(scene));
+    // A plane beside the town is none, wide as it is.
+    for (vec3& p_ws : scene.positions_ws) {
+        p_ws.x += std::abs(p_ws.x) == 1000 ? 1100.0F : 0.0F;
+    }
+    EXPECT_FALSE(has_floor(scene));
+}
+
 TEST(Ground, LiesBelowTheMainMassAndIsSeenToItsEnd) {
     Scene scene;
     add_box(scene, vec3(-1, 2, -1), vec3(1, 4, 1));
