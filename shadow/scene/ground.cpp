@@ -33,12 +33,21 @@ Box standing_box(const Scene& scene) {
     return box.empty() ? main : box;
 }
 
-/// Twice the area that the triangle covers seen from above where it looks up, by its winding or its shading normals.
-double upward_area(const Scene& scene, uvec3 t) {
+/// Twice the area of the footprint that the triangle covers where it looks up, by its winding or its shading normals. Of a
+/// triangle that reaches beyond the footprint, what its own rectangle shares with it is the most that counts.
+double upward_area(const Scene& scene, uvec3 t, const Box& box) {
     const dvec3 a(scene.positions_ws[t.x]);
     const double up = glm::cross(dvec3(scene.positions_ws[t.y]) - a, dvec3(scene.positions_ws[t.z]) - a).y;
     const float shading = scene.normals_ws[t.x].y + scene.normals_ws[t.y].y + scene.normals_ws[t.z].y;
-    return up > 0 || shading > 0 ? std::abs(up) : 0;
+    if (!(up > 0 || shading > 0)) {
+        return 0;
+    }
+    Box triangle;
+    for (int corner = 0; corner < 3; ++corner) {
+        triangle.grow(scene.positions_ws[t[corner]]);
+    }
+    const vec3 shared = glm::max(glm::min(triangle.max, box.max) - glm::max(triangle.min, box.min), vec3(0.0F));
+    return std::min(std::abs(up), 2.0 * static_cast<double>(shared.x) * static_cast<double>(shared.z));
 }
 
 void append_plane(Scene& scene, vec3 centre_ws, float half_side) {
@@ -74,13 +83,13 @@ void see_ground(Camera& camera, const Box& ground) {
 bool has_floor(const Scene& scene) {
     const Box box = standing_box(scene);
     const double footprint = static_cast<double>(box.extent().x) * static_cast<double>(box.extent().z);
-    const float highest = box.min.y + floor_share * box.diagonal();
+    const float reach = floor_share * box.diagonal();
     double twice = 0;
     for (const uvec3 t : scene.triangles) {
         const vec3 heights(scene.positions_ws[t.x].y, scene.positions_ws[t.y].y, scene.positions_ws[t.z].y);
-        const float lowest = std::min({heights.x, heights.y, heights.z});
-        if (lowest >= box.min.y && std::max({heights.x, heights.y, heights.z}) <= highest) {
-            twice += upward_area(scene, t);
+        if (std::min({heights.x, heights.y, heights.z}) >= box.min.y - reach &&
+            std::max({heights.x, heights.y, heights.z}) <= box.min.y + reach) {
+            twice += upward_area(scene, t, box);
         }
     }
     return twice > footprint;
@@ -102,13 +111,14 @@ void add_ground(Scene& scene, const Ground& ground, const std::vector<bool>& aut
             see_ground(scene.cameras[i], scene.objects.back().bounds_ws);
         }
     }
-    const double said = asked ? ground.height : static_cast<double>(height) + scene.origin.y;
-    add_note(
-        scene.notes,
-        asked ? fmt::format("A ground plane lies at height {:.6g}, as --ground asks.", said)
-              : fmt::format("The model has no floor of its own and is set on a ground plane at height {:.3g}; --ground "
-                            "none leaves it out, --ground HEIGHT moves it.",
-                            said));
+    const double said = asked ? ground.height : static_cast<double>(box.min.y) + scene.origin.y;
+    add_note(scene.notes,
+             asked ? fmt::format("A ground plane lies at height {:.6g}, as --ground asks.", said)
+                   : fmt::format(
+                         "No floor of the file's own covers half its footprint at its lowest point, so that a ground "
+                         "plane is set there, at height {:.4g}; --ground none leaves it out, --ground HEIGHT "
+                         "moves it.",
+                         said));
 }
 
 }  // namespace gn
