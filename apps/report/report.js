@@ -326,7 +326,8 @@ const anchor = index => `scene-${index + 1}`;
 function sceneSection(scene, index) {
   const runs = data.runs.filter(run => run.scene === scene.scene);
   const measured = runs.filter(run => run.status === 'ok');
-  const lights = scene.lights.map(light => `${light.name} (${light.kind}, ${light.size})`).join(', ');
+  const most = 8, more = scene.lights.length - most;
+  const lights = scene.lights.slice(0, most).map(light => `${light.name} (${light.kind}, ${light.size})`).join(', ') + (more > 0 ? ` and ${more} more` : '');
   const stage = comparer(scene, runs);
   const facts = [`View ${scene.view || 'unknown'}`, `${scene.size[0]} × ${scene.size[1]} pixels`, scene.triangles ? `${scene.triangles.toLocaleString('en')} triangles` : '']
     .filter(Boolean).join(', ');
