@@ -44,6 +44,14 @@ TEST(Convolution, IsOneHalfOnTheStepWithoutOffset) {
     }
 }
 
+TEST(Convolution, AScaleOfTwoMakesTheStepItselfLit) {
+    // [EASW09] 4.2.3: the value is scaled, so that the one half that a surface has on itself becomes one.
+    EXPECT_EQ(gn_convolution_step(0, 2), 1.0F);
+    EXPECT_EQ(gn_convolution_step(0, 1), 0.5F);
+    EXPECT_EQ(gn_convolution_step(-0.5F, 2), 0.0F);
+    EXPECT_NEAR(gn_convolution_step(-0.25F, 2), 0.5F, 1e-6F);
+}
+
 TEST(Convolution, AttenuationTakesTheRingingOffAStep) {
     // Beside the jump a truncated series swings past what it stands for, by 9 % of it (Gibbs).
     const auto overshoot = [](float attenuation) {
@@ -135,6 +143,15 @@ TEST(ConvolutionRendered, DefaultsFollowTheTermsFromTheSecondOn) {
         EXPECT_LT(*errors.rmse, previous) << terms << " terms";
         previous = *errors.rmse;
     }
+}
+
+TEST(ConvolutionRendered, AScaleOfTwoLeavesALitPlaneWithoutShadow) {
+    // Nothing is moved: what lies on the receiver's own plane is one half, twice that is one. Over the kernel the plane
+    // rises as much as it falls, and the series is odd about the step, so that the mean stays one half: what is left is
+    // the rounding of 8 bits, half a unit of 255 a term by weights that sum to 2 / pi (1 + 1/3 + ...) = 1.3.
+    const auto c = test::compare("tilted:angle=45", "convolution,resolution=512,convolution.scale=2,convolution.offset=0",
+                                 {.width = 96, .height = 96, .samples = 1});
+    EXPECT_LE(*c.errors.acne, 2 * 1.3 * 0.5 / 255);
 }
 
 TEST(ConvolutionRendered, StaysInRangeAndFreeOfAcne) {
