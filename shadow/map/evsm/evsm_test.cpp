@@ -191,6 +191,29 @@ TEST(EvsmRendered, IsNowhereBrighterThanTheVarianceMapOnTheFloorOfTheStack) {
     }
 }
 
+TEST(Evsm, RefusesExponentsThatTheFormatCannotHold) {
+    const Scene scene = load_scene("stack");
+    const auto refusal = [&](const std::string& recipe) {
+        return find_part(Stage::map, "evsm").refuses(scene, scene.lights.front(), load_recipe(recipe));
+    };
+    EXPECT_NE(refusal("evsm4,evsm.format=float16,evsm.exponent=20").find("evsm.exponent = 20"), std::string::npos);
+    EXPECT_NE(refusal("evsm4,evsm.format=float16,evsm.exponent=20").find("at most 5"), std::string::npos);
+    EXPECT_NE(refusal("evsm4,evsm.format=float16,evsm.exponent_negative=6").find("evsm.exponent_negative = 6"),
+              std::string::npos);
+    EXPECT_EQ(refusal("evsm2,evsm.format=float16,evsm.exponent=5,evsm.exponent_negative=6"), "");
+    for (const char* fits : {"evsm4", "evsm2", "evsm4,evsm.format=float16", "evsm4,evsm.exponent=42",
+                             "evsm4,evsm.format=float16,evsm.exponent=5"}) {
+        EXPECT_EQ(refusal(fits), "") << fits;
+    }
+}
+
+TEST(EvsmRendered, LeaksNoMoreThanTheVarianceMapByDefault) {
+    // Nothing was tuned: neither the bias nor the exponents.
+    const auto vsm = test::compare("stack", "vsm", {.samples = 16});
+    const auto evsm = test::compare("stack", "evsm4", {.samples = 16});
+    EXPECT_LE(*evsm.errors.leak, *vsm.errors.leak);
+}
+
 TEST(EvsmRendered, StaysInRangeAndFreeOfAcne) {
     for (const char* options : {"", ",evsm.format=float16", ",evsm.samples=4,evsm.blur=gaussian,evsm.radius=5"}) {
         const auto c = test::compare("tilted:angle=75", std::string("evsm4,resolution=512") + options,
