@@ -81,6 +81,14 @@ inline constexpr double half_width_b = 1.2;                              ///< B 
 constexpr double bleeding(double below_b) {
     return 0.25 * dx * dx / (0.5 * dx * dx + dx * below_b + below_b * below_b);
 }
+/// The share of the filter that A covers where most is let through to depth dy below B, and what it is there.
+constexpr double worst_share(double below_b) {
+    return below_b / (dx + 2 * below_b);
+}
+constexpr double worst_bleeding(double below_b) {
+    const double ratio = dx / (dx + 2 * below_b);
+    return ratio * ratio;
+}
 }  // namespace stack_scene
 
 /// The box on the ground of the scene `contact`, and the gap between its foot and the shadow.

@@ -181,6 +181,18 @@ TEST(SatVsmRendered, IsAVarianceMapWithABoxBlur) {
     }
 }
 
+TEST(SatVsmRendered, MostVarianceAndSmoothReductionAreThoseOfAVarianceMap) {
+    for (const std::string more : {".max_deviation=0.01", ".reduction=smoothstep"}) {
+        const std::string rest = ",placement=single,resolution=512,filtered.footprint=radius,filtered.radius=0";
+        const auto vsm = test::compare("stack", "vsm,vsm.mipmaps=false,vsm.radius=4,vsm" + more + rest, {.samples = 1});
+        const auto sat = test::compare("stack", "sat-vsm,sat-vsm.radius=4,sat-vsm.max_box=16,sat-vsm" + more + rest,
+                                       {.samples = 1});
+        const Errors errors =
+            visibility_errors(sat.visibility().values, vsm.visibility().values, sat.truth.counted, 192, 192);
+        EXPECT_LE(*errors.rmse, 2e-3) << more;
+    }
+}
+
 TEST(SatVsmRendered, StaysInRangeAndFreeOfAcne) {
     for (const char* options : {"", ",sat-vsm.table=float32", ",sat-vsm.samples=4,sat-vsm.radius=8"}) {
         const auto c = test::compare("tilted:angle=75", std::string("sat-vsm,resolution=512") + options,
