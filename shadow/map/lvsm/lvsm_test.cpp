@@ -223,6 +223,29 @@ TEST(LvsmRendered, ALayerBetweenBAndCStopsTheBleedingOfTheStack) {
     }
 }
 
+TEST(LvsmRendered, EightBitsStopItWhereLayersAreThin) {
+    // Half the bytes: the least deviation of 8 bits is 8 to 13 % of a layer, half a metre in one of sixteen.
+    const auto c = test::compare(
+        "stack", options("lvsm", ",lvsm.splits=uniform,lvsm.layers=16,lvsm.format=unorm8"), {.view = "under"});
+    EXPECT_LE(worst_under_b(c), 1e-3);
+}
+
+TEST(LvsmRendered, WeightsOfTheRelaxationCanBeClamped) {
+    // No edge weighs anything below a deviation of 1: the splits stay equal. No edge weighs more than any other above one
+    // of 0: so do they.
+    const auto uniform = test::compare("courtyard", "lvsm,resolution=256,lvsm.splits=uniform", {.samples = 1});
+    const auto dropped = test::compare("courtyard", "lvsm,resolution=256,lvsm.weight_least=1", {.samples = 1});
+    const auto relaxed = test::compare("courtyard", "lvsm,resolution=256", {.samples = 1});
+    const auto capped = test::compare("courtyard", "lvsm,resolution=256,lvsm.weight_most=0.001", {.samples = 1});
+    EXPECT_NE(relaxed.visibility().values, dropped.visibility().values);
+    EXPECT_NE(relaxed.visibility().values, capped.visibility().values);
+    EXPECT_NE(capped.visibility().values, dropped.visibility().values);
+    // A relaxed split lies one overlap further behind.
+    const Errors errors = visibility_errors(dropped.visibility().values, uniform.visibility().values,
+                                            uniform.truth.counted, 192, 192);
+    EXPECT_LT(*errors.rmse, 0.02);
+}
+
 TEST(LvsmRendered, RelaxedSplitsStopItToo) {
     // Splits are found behind B and behind C, whatever the overlap: C is lit in no layer that it is blended from.
     const test::ComparisonOptions under{.view = "under"};
