@@ -70,6 +70,34 @@ TEST(EsmRendered, FallbackIsCloserToPercentageCloserFilteringThanWithout) {
     EXPECT_LT(with, 0.9 * without);
 }
 
+/// rmse of one recipe's visibility to another's.
+double rmse_between(const std::string& scene, const std::string& recipe, const std::string& other) {
+    const auto a = test::compare(scene, recipe, {.samples = 1});
+    const auto b = test::compare(scene, other, {.samples = 1});
+    return *visibility_errors(a.visibility().values, b.visibility().values, a.truth.counted, 192, 192).rmse;
+}
+
+TEST(EsmRendered, ByTheGreatestDepthTheFallbackIsPercentageCloserFiltering) {
+    // Where any texel under the kernel lies beyond the receiver all are compared, whatever the size of the kernel; where
+    // none does, a gap h lets exp(-c h) through and nothing else differs.
+    const std::string rest = ",resolution=512,placement=fit,filtered.footprint=radius,filtered.radius=0";
+    for (const int radius : {2, 15}) {
+        const double rmse = rmse_between(
+            "stack", fmt::format("esm,esm.classifier=maximum,esm.epsilon=0,esm.exponent=85,esm.radius={}", radius) + rest,
+            fmt::format("pcf,resolution=512,placement=fit,pcf.size={}", 2 * radius + 1));
+        EXPECT_LT(rmse, 5e-3) << radius;
+    }
+}
+
+TEST(EsmRendered, TheFallbackComparesEverySampleOfATexel) {
+    // Four samples, no blur: along straight edges the mean of a texel's four comparisons is nearer to the half texels of a
+    // map of twice the side than one comparison with what the mean of their exponentials stands for.
+    const std::string esm = "esm,esm.classifier=maximum,esm.epsilon=0,esm.blur=none,esm.mipmaps=false,resolution=256,"
+                            "placement=fit,filtered.footprint=radius,filtered.radius=0,esm.samples=";
+    const std::string fine = "pcf,pcf.size=2,resolution=512,placement=fit";
+    EXPECT_LT(rmse_between("stack", esm + "4", fine), 0.8 * rmse_between("stack", esm + "1", fine));
+}
+
 TEST(EsmRendered, StaysInRangeAndFreeOfAcne) {
     for (const char* options : {"", ",esm.samples=4", ",esm.blur=none", ",esm.exponent=85,esm.blur=gaussian"}) {
         const auto c = test::compare("tilted:angle=75", std::string("esm,resolution=512") + options,
