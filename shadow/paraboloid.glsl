@@ -96,6 +96,21 @@ GN_FN vec4 gn_paraboloid_hit(vec2 u, vec3 a, vec3 b, vec3 c) {
     return vec4(sides / sum, hit >= 0.0f ? hit : farthest);
 }
 
+// How the distance to a triangle's plane changes with u: the ray of u meets it at facing (1 + |u|^2) / (2 n.xy u + n.z (1 -
+// |u|^2)). Whether u is on the triangle does not matter; where the distance above is a limit it does not change.
+GN_FN vec2 gn_paraboloid_slope(vec2 u, vec3 a, vec3 b, vec3 c) {
+    vec3 n = cross(b - a, c - a);
+    float facing = dot(a, n);
+    float farthest = max(length(a), max(length(b), length(c)));
+    float square = dot(u, u);
+    float divisor = 2.0f * (n.x * u.x + n.y * u.y) + n.z * (1.0f - square);
+    if (abs(facing) * (1.0f + square) > farthest * abs(divisor)) {
+        return vec2(0.0f);
+    }
+    vec2 change = 2.0f * (vec2(n.x, n.y) - n.z * u);
+    return facing / divisor * (2.0f * u - (1.0f + square) / divisor * change);
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #endif

@@ -114,7 +114,10 @@ layout(location = 1) in vec2 in_uv;
 
 constexpr const char* fragment_main = R"(
 void main() {
+    // Before anything is discarded, while all neighbours are there, take the slope of the triangle's plane.
 #ifdef GN_PARABOLOID
+    vec2 change = gn_paraboloid_slope(in_u, in_a, in_b, in_c);
+    vec2 slope = vec2(dot(change, dFdx(in_u)), dot(change, dFdy(in_u)));
     vec4 hit = gn_paraboloid_hit(in_u, in_a, in_b, in_c);
     if (hit.w < 0.0) {
         discard;
@@ -123,9 +126,9 @@ void main() {
 #ifdef GN_MASKED
     vec2 in_uv = hit.x * in_uv_a + hit.y * in_uv_b + hit.z * in_uv_c;
 #endif
-#endif
-    // Neighbours must be there: alpha discards after this.
+#else
     vec2 slope = vec2(dFdx(in_depth), dFdy(in_depth));
+#endif
 #ifdef GN_MASKED
     if (textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.alpha_cutoff) {
         discard;

@@ -100,6 +100,30 @@ TEST(Paraboloid, HitIsThePointOnTheTriangle) {
 
 const GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 1, .cone = 0};
 
+TEST(Paraboloid, SlopeIsTheChangeOfTheHit) {
+    // Against differences over 2^-7 on either side, which err by a sixth of the third derivative times that squared.
+    std::mt19937 random(23);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    constexpr float step = 1.0F / 128;
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto corner = [&] { return vec3(3 * uniform(random), 3 * uniform(random), 2 + uniform(random)); };
+        const vec3 a = corner(), b = corner(), c = corner();
+        const vec2 u = glsl::gn_paraboloid((a + b + c) / 3.0F);
+        const auto at = [&](float x, float y) { return glsl::gn_paraboloid_hit(u + vec2(x, y), a, b, c).w; };
+        const std::array<float, 4> around{at(-step, 0), at(step, 0), at(0, -step), at(0, step)};
+        const float steepest = std::max(std::abs(around[1] - around[0]), std::abs(around[3] - around[2]));
+        // Planes that are seen edge-on bend too fast for differences.
+        if (*std::min_element(around.begin(), around.end()) > 0 && steepest < 0.1F) {
+            const vec2 slope = glsl::gn_paraboloid_slope(u, a, b, c);
+            EXPECT_NEAR(slope.x, (around[1] - around[0]) / (2 * step), 0.02F) << i;
+            EXPECT_NEAR(slope.y, (around[3] - around[2]) / (2 * step), 0.02F) << i;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 300);
+}
+
 TEST(Paraboloid, DepthOfThePlaneIsExact) {
     const GnLightView view = some_view();
     const vec3 eye_ws(view.eye_ws);
