@@ -86,6 +86,15 @@ std::uint32_t all_mips(const GnPrefilterParams& params, std::uint32_t resolution
 
 }  // namespace
 
+TextureHandle create_depth(const FrameInput& input, const LightViews& views, const MomentMap& map) {
+    return input.graph.create({.name = map.name + " depth",
+                               .format = VK_FORMAT_D32_SFLOAT,
+                               .width = views.resolution,
+                               .height = views.resolution,
+                               .layers = views.layers,
+                               .samples = static_cast<std::uint32_t>(map.samples)});
+}
+
 TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                           const MomentMap& map) {
     TextureDesc color{.name = map.name,
@@ -95,10 +104,6 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
                       .layers = views.layers,
                       .mips = map.samples > 1 ? 1 : map.mips,
                       .samples = static_cast<std::uint32_t>(map.samples)};
-    TextureDesc depth = color;
-    depth.name = map.name + " depth";
-    depth.format = VK_FORMAT_D32_SFLOAT;
-    depth.mips = 1;
     if (map.samples > 1) {
         color.name += " samples";
     }
@@ -107,7 +112,7 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
                       {.name = "map",
                        .color = target,
                        .clear_color = map.clear,
-                       .depth = input.graph.create(depth),
+                       .depth = map.depth.valid() ? map.depth : create_depth(input, views, map),
                        .fragment = map.fragment,
                        .bind_values = map.bind_values});
     return map.samples > 1 ? add_resolve_samples(input, target, map) : target;

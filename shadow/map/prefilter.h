@@ -16,8 +16,11 @@ struct MomentMap {
     ClearValue clear;         ///< what a texel without caster stores
     CasterFragment fragment;  ///< writes `layout(location = 0) out vec4 out_moments` from `depth`
     std::function<void(Recorder&)> bind_values;
+    TextureHandle depth;     ///< create_depth, for who reads it afterwards; invalid: nobody does
     std::uint32_t mips = 1;  ///< of the returned texture; filled by add_mips; 1 while it has samples
 };
+/// The D32 that a moment map is drawn with: its layers and samples.
+TextureHandle create_depth(const FrameInput& input, const LightViews& views, const MomentMap& map);
 TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const LightViews& views, const MomentMap& map);
 
 /// A separable blur (GN_BLUR_BOX, GN_BLUR_GAUSSIAN) of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
@@ -43,7 +46,9 @@ std::vector<ParamRow> with_prefilter(std::vector<ParamRow> rows, std::size_t off
 ParamRow samples_row(std::size_t offset);
 ParamRow slope_moment_row(std::size_t offset);
 ParamRow min_deviation_row(std::size_t offset);
+ParamRow max_deviation_row(std::size_t offset);
 ParamRow bleeding_row(std::size_t offset);
+ParamRow reduction_row(std::size_t offset);
 
 /// One fragment pass a layer over a whole texture: `text` is GLSL with main(); `source` is bound as sampler2DArray
 /// "source" with the layer in push constant int `push_layer`, after your own declarations.

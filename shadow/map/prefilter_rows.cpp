@@ -54,6 +54,30 @@ ParamRow min_deviation_row(std::size_t offset) {
             {}};
 }
 
+ParamRow max_deviation_row(std::size_t offset) {
+    return {"max_deviation",
+            ParamType::real,
+            offset,
+            0,
+            0.5,
+            "of the depth range",
+            "Greatest standard deviation of depth believed: less bleeding between casters far apart, harder penumbrae "
+            "there.",
+            {}};
+}
+
+ParamRow reduction_row(std::size_t offset) {
+    return {
+        "reduction",
+        ParamType::choice,
+        offset,
+        0,
+        0,
+        "",
+        "How the bound is cut: by a line, or by a smooth step, which darkens what bleeds and brightens what is lit.",
+        {"linear", "smoothstep"}};
+}
+
 ParamRow bleeding_row(std::size_t offset) {
     return {"bleeding",
             ParamType::real,

@@ -15,6 +15,7 @@ constexpr const char* histogram_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform GN_DEPTHS depths;
 layout(binding = 1, scalar) buffer Bins { uint bins[]; };
+layout(binding = 2, scalar) uniform Params { GnLvsmParams params; } u;
 float depth_at(ivec2 texel) { return texelFetch(depths, ivec3(texel, gl_GlobalInvocationID.z), 0).r; }
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -29,7 +30,8 @@ void main() {
     }
     // Add its weight, in units of 2^-22, to two words with a carry: integer sums do not depend on the order.
     vec2 second = gn_lloyd_sample(four);
-    uint weight = uint(second.y * 4194304.0 + 0.5);
+    float share = gn_lloyd_weight(second.y, u.params.weight_least, u.params.weight_most);
+    uint weight = uint(share * 4194304.0 + 0.5);
     if (weight == 0u) {
         return;
     }
@@ -151,6 +153,7 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
             r.bind(ComputeDesc{.shader = {ShaderKind::compute, "lvsm-histogram.comp", text}});
             r.set("depths", depths);
             r.set("Bins", bins);
+            r.set_value("u", params);
             r.dispatch((source.width + 7) / 8, (source.height + 7) / 8, source.layers);
         });
     graph.add_pass(

@@ -23,6 +23,11 @@ GN_FN vec2 gn_lloyd_sample(vec4 depths) {
     return vec2(min(mean + sqrt(variance), 1.0f), variance);
 }
 
+// [Lau08] 4.1.2: low and high variances clamped. Below one deviation nothing counts, above the other all count alike.
+GN_FN float gn_lloyd_weight(float variance, float least, float most) {
+    return variance < least * least ? 0.0f : min(variance / (most * most), 1.0f);
+}
+
 // splits[0] = 0 and splits[layers] = 1 stay; those between are the means.
 struct GnLloydSplits {
     float at[GN_LVSM_MAX_LAYERS + 1];

@@ -39,18 +39,17 @@ GN_FN float gn_lvsm_warp(float depth, vec2 interval) {
     return clamp((depth - interval.x) / gn_lvsm_width(interval), 0.0f, 1.0f);
 }
 
-// Moments of a warped depth; the spread of its plane over the texel joins the second where the warp is not flat.
+// Moments of a warped depth; its plane's spread over the texel is stretched with it, and vanishes where the warp is flat.
 GN_FN vec2 gn_lvsm_moments(float depth, float spread, vec2 interval) {
-    float warped = gn_lvsm_warp(depth, interval);
-    bool within = depth >= interval.x && depth <= interval.y;
     float width = gn_lvsm_width(interval);
-    return vec2(warped, warped * warped + (within ? spread / (width * width) : 0.0f));
+    return gn_vsm_moments(gn_lvsm_warp(depth, interval), spread / (width * width));
 }
 
-// Variance that may be rounding: each of the three times that a 16-bit moment is rounded (drawn, blurred twice) moves
-// M2 - M1^2 by half a unit for the second moment and by 2 M1 times that for the first.
+// Variance that may be rounding: each of the three times that a moment in fixed point is rounded (drawn, blurred twice)
+// moves M2 - M1^2 by half a unit for the second moment and by 2 M1 times that for the first.
 GN_FN float gn_lvsm_rounding(float mean, int format) {
-    return format == GN_LVSM_UNORM16 ? 1.5f * (1.0f + 2.0f * mean) / 65535.0f : 0.0f;
+    float unit = format == GN_LVSM_FLOAT32 ? 0.0f : 1.0f / (format == GN_LVSM_UNORM8 ? 255.0f : 65535.0f);
+    return 1.5f * (1.0f + 2.0f * mean) * unit;
 }
 
 // Visibility of a receiver in one layer: Chebyshev's bound on the warped distribution.
@@ -69,6 +68,11 @@ GN_FN float gn_lvsm_transition(float beyond, float reach) {
 
 GN_FN float gn_lvsm_between(float nearer, float farther, float beyond, float reach) {
     return mix(nearer, farther, gn_lvsm_transition(beyond, reach));
+}
+
+// The layer of a depth between equal splits: computed, where relaxed ones must be searched. [Lau08] 4.1.3
+GN_FN int gn_lvsm_equal_layer(float depth, int layers) {
+    return int(clamp(depth * float(layers), 0.0f, float(layers - 1)));
 }
 
 #ifdef __cplusplus
@@ -94,8 +98,9 @@ float gn_lvsm_layer_visibility(sampler2DArray map, sampler2DArray splits, GnProj
 float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
                          GnLvsmParams params) {
     // Find the receiver's layer.
-    int i = 0;
-    while (i + 1 < params.layers && projected.depth >= gn_lvsm_split(splits, projected.layer, i + 1, params)) {
+    int i = params.splits == GN_LVSM_UNIFORM ? gn_lvsm_equal_layer(projected.depth, params.layers) : 0;
+    while (params.splits != GN_LVSM_UNIFORM && i + 1 < params.layers &&
+           projected.depth >= gn_lvsm_split(splits, projected.layer, i + 1, params)) {
         ++i;
     }
     float near_split = gn_lvsm_split(splits, projected.layer, i, params);

@@ -13,11 +13,14 @@
 
 #define GN_LVSM_UNORM16 0
 #define GN_LVSM_FLOAT32 1
+#define GN_LVSM_UNORM8 2
 
 struct GnLvsmParams {
     int layers GN_DEFAULT(4);
     int splits GN_DEFAULT(GN_LVSM_LLOYD);
     int iterations GN_DEFAULT(8);
+    float weight_least GN_DEFAULT(0.0f);
+    float weight_most GN_DEFAULT(1.0f);
     float overlap GN_DEFAULT(0.05f);
     float transition GN_DEFAULT(1.0f);
     int format GN_DEFAULT(GN_LVSM_UNORM16);

@@ -64,8 +64,8 @@ TEST(Lvsm, OneLayerIsAVarianceMap) {
     const vec2 interval = gn_lvsm_interval(0, 0, 1, params);
     EXPECT_EQ(interval, vec2(0, 1));
     for (float depth = 0; depth <= 1; depth += 0.0625F) {
-        const float spread = gn_vsm_moments(0, 0.125F, 0).y;
-        EXPECT_EQ(gn_lvsm_moments(depth, spread, interval), gn_vsm_moments(depth, 0.125F, 0));
+        const float spread = gn_vsm_spread(0.125F, 0);
+        EXPECT_EQ(gn_lvsm_moments(depth, spread, interval), gn_vsm_moments(depth, spread));
         EXPECT_EQ(gn_lvsm_bound(vec2(0.4F, 0.2F), depth, interval, 0.01F, params),
                   gn_vsm_chebyshev(vec2(0.4F, 0.2F), depth, 0.01F * 0.01F));
     }
@@ -224,15 +224,16 @@ TEST(LvsmRendered, ALayerBetweenBAndCStopsTheBleedingOfTheStack) {
 }
 
 TEST(LvsmRendered, EightBitsStopItWhereLayersAreThin) {
-    // Half the bytes: the least deviation of 8 bits is 8 to 13 % of a layer, half a metre in one of sixteen.
-    const auto c = test::compare(
-        "stack", options("lvsm", ",lvsm.splits=uniform,lvsm.layers=16,lvsm.format=unorm8"), {.view = "under"});
-    EXPECT_LE(worst_under_b(c), 1e-3);
+    // Half the bytes. The occluders lie flat on the front of C's layer, where rounding may be a variance of 1.5 / 255: what
+    // it lets through to the back half of the layer, in which C lies here, is 0.0059 / (0.0059 + 1/4).
+    const auto c = test::compare("stack", options("lvsm", ",lvsm.splits=uniform,lvsm.layers=16,lvsm.format=unorm8"),
+                                 {.view = "under"});
+    EXPECT_LE(worst_under_b(c), 0.023);
 }
 
 TEST(LvsmRendered, WeightsOfTheRelaxationCanBeClamped) {
-    // No edge weighs anything below a deviation of 1: the splits stay equal. No edge weighs more than any other above one
-    // of 0: so do they.
+    // No edge has a deviation of 1: none draws a split, and all stay equal. Where every edge weighs the same the splits go
+    // elsewhere than where high ones weigh more.
     const auto uniform = test::compare("courtyard", "lvsm,resolution=256,lvsm.splits=uniform", {.samples = 1});
     const auto dropped = test::compare("courtyard", "lvsm,resolution=256,lvsm.weight_least=1", {.samples = 1});
     const auto relaxed = test::compare("courtyard", "lvsm,resolution=256", {.samples = 1});
@@ -241,8 +242,8 @@ TEST(LvsmRendered, WeightsOfTheRelaxationCanBeClamped) {
     EXPECT_NE(relaxed.visibility().values, capped.visibility().values);
     EXPECT_NE(capped.visibility().values, dropped.visibility().values);
     // A relaxed split lies one overlap further behind.
-    const Errors errors = visibility_errors(dropped.visibility().values, uniform.visibility().values,
-                                            uniform.truth.counted, 192, 192);
+    const Errors errors =
+        visibility_errors(dropped.visibility().values, uniform.visibility().values, uniform.truth.counted, 192, 192);
     EXPECT_LT(*errors.rmse, 0.02);
 }
 
@@ -279,7 +280,10 @@ TEST(LvsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
                              ",lvsm.splits=uniform,lvsm.layers=7,lvsm.transition=0"}) {
         const auto c = test::compare("tilted:angle=75", std::string("lvsm,resolution=512") + more,
                                      {.width = 96, .height = 96, .samples = 4});
-        EXPECT_LE(*c.errors.acne, 0.01) << more;
+        // Where a kernel lies half before its layer's front the mean comes nearer by 0.4 sigma and the variance falls to 0.34
+        // of itself: 0.4 of the light is lost at such a split. Overlaps keep receivers from there by a twentieth of a layer,
+        // twice the kernel and more; what is left is what 16 bits round.
+        EXPECT_LE(*c.errors.acne, 1e-3) << more;
         for (const float v : c.visibility().values) {
             ASSERT_TRUE(v >= 0 && v <= 1) << v;
         }

@@ -39,10 +39,11 @@ struct Push {
 
 /// A single layer needs two components only.
 VkFormat format_of(const GnLvsmParams& params) {
-    if (params.format == GN_LVSM_UNORM16) {
-        return params.layers == 1 ? VK_FORMAT_R16G16_UNORM : VK_FORMAT_R16G16B16A16_UNORM;
+    switch (params.format) {
+        case GN_LVSM_UNORM8: return params.layers == 1 ? VK_FORMAT_R8G8_UNORM : VK_FORMAT_R8G8B8A8_UNORM;
+        case GN_LVSM_UNORM16: return params.layers == 1 ? VK_FORMAT_R16G16_UNORM : VK_FORMAT_R16G16B16A16_UNORM;
+        default: return params.layers == 1 ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
     }
-    return params.layers == 1 ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
 }
 
 }  // namespace
@@ -62,9 +63,8 @@ TextureHandle add_depths(const FrameInput& input, const Recipe& recipe, const Li
     // The spread of the texel's plane as in a variance map: [DL06] 4.1.
     CasterFragment fragment;
     fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
-    fragment.body = params.slope_moment != 0
-                        ? "out_moments = vec4(depth, gn_vsm_moments(0.0, slope.x, slope.y).y, 0, 0);"
-                        : "out_moments = vec4(depth, 0, 0, 0);";
+    fragment.body = params.slope_moment != 0 ? "out_moments = vec4(depth, gn_vsm_spread(slope.x, slope.y), 0, 0);"
+                                             : "out_moments = vec4(depth, 0, 0, 0);";
     const TextureHandle target = input.graph.create(color);
     add_caster_passes(input, recipe, views,
                       {.color = target,

@@ -23,8 +23,8 @@ ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const Light
     moments.clear = {.color = vec4(1, 1, 0, 0)};
     moments.fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
     moments.fragment.body = params.slope_moment != 0
-                                ? "out_moments = vec4(gn_vsm_moments(depth, slope.x, slope.y), 0, 0);"
-                                : "out_moments = vec4(gn_vsm_moments(depth, 0.0, 0.0), 0, 0);";
+                                ? "out_moments = vec4(gn_vsm_moments(depth, gn_vsm_spread(slope.x, slope.y)), 0, 0);"
+                                : "out_moments = vec4(gn_vsm_moments(depth, 0.0), 0, 0);";
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Sum.
@@ -56,7 +56,9 @@ ParamTable rows() {
         samples_row(offsetof(GnSatVsmParams, samples)),
         slope_moment_row(offsetof(GnSatVsmParams, slope_moment)),
         min_deviation_row(offsetof(GnSatVsmParams, min_deviation)),
+        max_deviation_row(offsetof(GnSatVsmParams, max_deviation)),
         bleeding_row(offsetof(GnSatVsmParams, bleeding)),
+        reduction_row(offsetof(GnSatVsmParams, reduction)),
     });
 }
 

@@ -101,8 +101,9 @@ float gn_sat_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjecte
     }
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
     float rounding = params.table == GN_SAT_UINT32 ? 1.0 / gn_sat_levels(params.max_box) : 0.0;
+    moments = gn_vsm_limit(moments, params.max_deviation);
     float bound = gn_vsm_chebyshev(moments, projected.depth, max(deviation * deviation, rounding));
-    return gn_vsm_reduce_bleeding(bound, params.bleeding);
+    return gn_vsm_reduce(bound, params.bleeding, params.reduction);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define GN_SHADOW_MAP_SAT_VSM_H
 
 #include "base/shared.h"
+#include "shadow/map/vsm/vsm.h"
 
 #define GN_SAT_FLOAT32 0
 #define GN_SAT_UINT32 1
@@ -19,7 +20,9 @@ struct GnSatVsmParams {
     int samples GN_DEFAULT(1);
     int slope_moment GN_DEFAULT(1);
     float min_deviation GN_DEFAULT(2.0f);
+    float max_deviation GN_DEFAULT(0.5f);
     float bleeding GN_DEFAULT(0.2f);
+    int reduction GN_DEFAULT(GN_VSM_LINEAR);
 };
 
 #endif

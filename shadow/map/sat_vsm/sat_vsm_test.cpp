@@ -185,8 +185,9 @@ TEST(SatVsmRendered, MostVarianceAndSmoothReductionAreThoseOfAVarianceMap) {
     for (const std::string more : {".max_deviation=0.01", ".reduction=smoothstep"}) {
         const std::string rest = ",placement=single,resolution=512,filtered.footprint=radius,filtered.radius=0";
         const auto vsm = test::compare("stack", "vsm,vsm.mipmaps=false,vsm.radius=4,vsm" + more + rest, {.samples = 1});
-        const auto sat = test::compare("stack", "sat-vsm,sat-vsm.radius=4,sat-vsm.max_box=16,sat-vsm" + more + rest,
-                                       {.samples = 1});
+        const auto sat = test::compare(
+            "stack", "sat-vsm,sat-vsm.radius=4,sat-vsm.max_box=16,sat-vsm.min_deviation=1,sat-vsm" + more + rest,
+            {.samples = 1});
         const Errors errors =
             visibility_errors(sat.visibility().values, vsm.visibility().values, sat.truth.counted, 192, 192);
         EXPECT_LE(*errors.rmse, 2e-3) << more;
@@ -197,7 +198,8 @@ TEST(SatVsmRendered, StaysInRangeAndFreeOfAcne) {
     for (const char* options : {"", ",sat-vsm.table=float32", ",sat-vsm.samples=4,sat-vsm.radius=8"}) {
         const auto c = test::compare("tilted:angle=75", std::string("sat-vsm,resolution=512") + options,
                                      {.width = 96, .height = 96, .samples = 1});
-        EXPECT_LE(*c.errors.acne, 0.01) << options;
+        // As of a variance map: rounding against the deviation of two texels.
+        EXPECT_LE(*c.errors.acne, 1e-4) << options;
         for (const float v : c.visibility().values) {
             ASSERT_TRUE(v >= 0 && v <= 1) << v << options;
         }

@@ -20,8 +20,8 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
     moments.fragment.body = params.slope_moment != 0
-                                ? "out_moments = vec4(gn_vsm_moments(depth, slope.x, slope.y), 0, 0);"
-                                : "out_moments = vec4(gn_vsm_moments(depth, 0.0, 0.0), 0, 0);";
+                                ? "out_moments = vec4(gn_vsm_moments(depth, gn_vsm_spread(slope.x, slope.y)), 0, 0);"
+                                : "out_moments = vec4(gn_vsm_moments(depth, 0.0), 0, 0);";
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
@@ -54,7 +54,9 @@ const Part& map_vsm() {
                 samples_row(offsetof(GnVsmParams, samples)),
                 slope_moment_row(offsetof(GnVsmParams, slope_moment)),
                 min_deviation_row(offsetof(GnVsmParams, min_deviation)),
+                max_deviation_row(offsetof(GnVsmParams, max_deviation)),
                 bleeding_row(offsetof(GnVsmParams, bleeding)),
+                reduction_row(offsetof(GnVsmParams, reduction)),
             },
             offsetof(GnVsmParams, prefilter)));
         p.params_type = "GnVsmParams";

@@ -12,9 +12,14 @@
 namespace gn::glsl {
 #endif
 
-// Moments of a texel that a plane crosses: [DL06] 4.1, the plane's spread over the texel joins the second.
-GN_FN vec2 gn_vsm_moments(float depth, float ddx, float ddy) {
-    return vec2(depth, depth * depth + 0.25f * (ddx * ddx + ddy * ddy));
+// [DL06] 4.1: the variance of a plane's depth over a texel that is a Gaussian of half its side.
+GN_FN float gn_vsm_spread(float ddx, float ddy) { return 0.25f * (ddx * ddx + ddy * ddy); }
+
+// Moments of a texel that a plane crosses: its spread joins the second. Depths lie in [0,1], as far to one side of their
+// mean as to the other, so that it is at most the square of the way to the nearer end.
+GN_FN vec2 gn_vsm_moments(float depth, float spread) {
+    float room = min(depth, 1.0f - depth);
+    return vec2(depth, depth * depth + min(spread, room * room));
 }
 
 // [DL06] eq. 5: no more than this share of the distribution lies at or beyond `depth`.
@@ -23,6 +28,11 @@ GN_FN float gn_vsm_chebyshev(vec2 moments, float depth, float min_variance) {
     float distance = depth - moments.x;
     GN_EXPECT(gn_finite(moments.x) && gn_finite(moments.y) && gn_finite(depth));
     return distance <= 0.0f ? 1.0f : variance / (variance + distance * distance);
+}
+
+// A limit to the variance: what bleeds goes with it, and so does the light of wide penumbrae.
+GN_FN vec2 gn_vsm_limit(vec2 moments, float max_deviation) {
+    return vec2(moments.x, min(moments.y, moments.x * moments.x + max_deviation * max_deviation));
 }
 
 // The least standard deviation assumed, in depth: what the moments of a texel say of a surface is blurred by about the
@@ -36,6 +46,12 @@ GN_FN float gn_vsm_reduce_bleeding(float bound, float amount) {
     return clamp((bound - amount) / (1.0f - amount), 0.0f, 1.0f);
 }
 
+// The same as a straight line, or bent so that it leaves the ends without a crease.
+GN_FN float gn_vsm_reduce(float bound, float amount, int reduction) {
+    float v = gn_vsm_reduce_bleeding(bound, amount);
+    return reduction == GN_VSM_SMOOTHSTEP ? v * v * (3.0f - 2.0f * v) : v;
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
@@ -44,8 +60,9 @@ float gn_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected pr
                         GnVsmParams params) {
     vec2 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).xy;
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
+    moments = gn_vsm_limit(moments, params.max_deviation);
     float bound = gn_vsm_chebyshev(moments, projected.depth, deviation * deviation);
-    return gn_vsm_reduce_bleeding(bound, params.bleeding);
+    return gn_vsm_reduce(bound, params.bleeding, params.reduction);
 }
 
 #endif

@@ -12,8 +12,8 @@ namespace {
 using namespace gn::glsl;
 
 vec2 moments_of(float d1, float d2, float share1) {
-    const vec2 a = gn_vsm_moments(d1, 0, 0);
-    const vec2 b = gn_vsm_moments(d2, 0, 0);
+    const vec2 a = gn_vsm_moments(d1, 0);
+    const vec2 b = gn_vsm_moments(d2, 0);
     return share1 * a + (1 - share1) * b;
 }
 
@@ -25,8 +25,8 @@ TEST(Vsm, MomentsOfATexelAreThoseOfItsPlane) {
         const float depth = d + 0.5F * (at.x * ddx + at.y * ddy);
         square += 0.25F * depth * depth;
     }
-    EXPECT_EQ(gn_vsm_moments(d, ddx, ddy).x, d);
-    EXPECT_NEAR(gn_vsm_moments(d, ddx, ddy).y, square, 1e-7);
+    EXPECT_EQ(gn_vsm_moments(d, gn_vsm_spread(ddx, ddy)).x, d);
+    EXPECT_NEAR(gn_vsm_moments(d, gn_vsm_spread(ddx, ddy)).y, square, 1e-7);
 }
 
 TEST(Vsm, BoundIsExactOnParallelPlanes) {
@@ -46,7 +46,7 @@ TEST(Vsm, BoundIsNeverBelowPercentageCloserFiltering) {
         const float receiver = uniform(random);
         for (int k = 0; k < 9; ++k) {
             const float depth = uniform(random);
-            mean += gn_vsm_moments(depth, 0, 0) / 9.0F;
+            mean += gn_vsm_moments(depth, 0) / 9.0F;
             lit += receiver <= depth ? 1.0F / 9 : 0;
         }
         EXPECT_GE(gn_vsm_chebyshev(mean, receiver, 0), lit - 1e-4);
@@ -88,6 +88,24 @@ TEST(Vsm, BleedsMostWhereTheNearerCasterCoversItsShareOfTheDistances) {
     }
 }
 
+/// The most light on C well under B, for a kernel of 17 texels.
+double most_under_b(const std::string& more) {
+    const auto c = test::compare(
+        "stack", "vsm,vsm.bleeding=0,vsm.min_deviation=0,vsm.radius=8,vsm.mipmaps=false,resolution=1024" + more,
+        {.width = 384, .height = 384, .view = "under"});
+    double most = 0;
+    int samples = 0;
+    for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+        const vec4 p_ws = c.frame.samples.position_ws[i];
+        if (p_ws.w > 0.5F && p_ws.y < 1e-3F && std::abs(p_ws.x) < 0.6F && std::abs(p_ws.z) < 0.6F) {
+            most = std::max(most, static_cast<double>(c.visibility().values[i]));
+            ++samples;
+        }
+    }
+    EXPECT_GT(samples, 500) << more;
+    return most;
+}
+
 TEST(VsmRendered, BleedingOnTheStackFollowsTheEquation) {
     EXPECT_NEAR(bleeding_at(0.5), scenes::stack_scene::bleeding(scenes::stack_scene::dy), 1e-12);
 
@@ -96,23 +114,7 @@ TEST(VsmRendered, BleedingOnTheStackFollowsTheEquation) {
     // receivers, which would clamp both; cascades keep the depths of the whole scene.
     const double expected = scenes::stack_scene::worst_bleeding(scenes::stack_scene::dy);
     for (const std::string placement : {"single", "cascades"}) {
-        const auto c =
-            test::compare("stack",
-                          "vsm,vsm.bleeding=0,vsm.min_deviation=0,vsm.blur=box,vsm.radius=8,vsm.mipmaps=false,"
-                          "resolution=1024,placement=" +
-                              placement,
-                          {.width = 384, .height = 384, .view = "under"});
-        double measured = 0;
-        int samples = 0;
-        for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
-            const vec4 p_ws = c.frame.samples.position_ws[i];
-            if (p_ws.w > 0.5F && p_ws.y < 1e-3F && std::abs(p_ws.x) < 0.6F && std::abs(p_ws.z) < 0.6F) {
-                measured = std::max(measured, static_cast<double>(c.visibility().values[i]));
-                ++samples;
-            }
-        }
-        EXPECT_GT(samples, 500) << placement;
-        EXPECT_NEAR(measured, expected, 2e-3) << placement;
+        EXPECT_NEAR(most_under_b(",placement=" + placement), expected, 2e-3) << placement;
     }
 }
 
@@ -121,22 +123,19 @@ TEST(Vsm, TheSpreadOfAPlaneIsNoMoreThanItsDepthAllows) {
     // way to the nearer end.
     for (const float depth : {0.0F, 0.01F, 0.3F, 0.9F, 1.0F}) {
         const float room = std::min(depth, 1 - depth);
-        EXPECT_NEAR(gn_vsm_moments(depth, 50, 50).y, depth * depth + room * room, 1e-6F) << depth;
-        EXPECT_NEAR(gn_vsm_moments(depth, 0.01F * room, 0).y, depth * depth + 0.25e-4F * room * room, 1e-6F) << depth;
+        EXPECT_NEAR(gn_vsm_moments(depth, gn_vsm_spread(50, 50)).y, depth * depth + room * room, 1e-6F) << depth;
+        EXPECT_NEAR(gn_vsm_moments(depth, gn_vsm_spread(0.01F * room, 0)).y, depth * depth + 0.25e-4F * room * room,
+                    1e-6F)
+            << depth;
     }
 }
 
 TEST(VsmRendered, MostVarianceAndSmoothReductionDarkenWhatBleeds) {
-    // The most that reaches C under B: 0.093 as the bound is, less with either remedy.
-    const auto leak = [](const std::string& more) {
-        return *test::compare("stack", "vsm,vsm.bleeding=0,placement=single,vsm.radius=16,resolution=512" + more,
-                              {.samples = 1, .view = "under"})
-                    .errors.leak;
-    };
-    const double plain = leak("");
-    EXPECT_LT(leak(",vsm.max_deviation=0.01"), 0.5 * plain);
-    EXPECT_LT(leak(",vsm.reduction=smoothstep"), 0.5 * plain);
-    EXPECT_EQ(leak(",vsm.max_deviation=0.5,vsm.reduction=linear"), plain);
+    // A smooth step of the worst bleeding v is v^2 (3 - 2 v); the limit is where nothing varies more, and little below it.
+    const double v = scenes::stack_scene::worst_bleeding(scenes::stack_scene::dy);
+    EXPECT_NEAR(most_under_b(",placement=single,vsm.reduction=smoothstep"), v * v * (3 - 2 * v), 2e-3);
+    EXPECT_NEAR(most_under_b(",placement=single,vsm.max_deviation=0.5"), v, 2e-3);
+    EXPECT_LT(most_under_b(",placement=single,vsm.max_deviation=0.01"), 0.5 * v);
 }
 
 TEST(VsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
@@ -144,7 +143,9 @@ TEST(VsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
          {"", ",vsm.samples=4", ",vsm.blur=gaussian,vsm.radius=5", ",vsm.mipmaps=false,vsm.blur=none"}) {
         const auto c =
             test::compare("tilted:angle=75", std::string("vsm,resolution=512") + options, {.width = 96, .height = 96});
-        EXPECT_LE(*c.errors.acne, 0.01) << options;
+        // The mean of a kernel on a plane is the receiver's own depth but for rounding e, which takes e^2 / sigma^2 of the
+        // light: with the deviation of a texel or more, 1e-3 of the range, and 1e-6 of rounding next to nothing.
+        EXPECT_LE(*c.errors.acne, 1e-4) << options;
         for (const float v : c.visibility().values) {
             ASSERT_TRUE(v >= 0 && v <= 1) << v;
         }
