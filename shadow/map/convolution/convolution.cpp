@@ -65,7 +65,8 @@ ParamTable rows() {
             GN_PARAM(GnConvolutionParams, offset, real, 0, 2, "",
                      "Moves the step into the shadow, in half widths of it: less acne, more light at contacts."),
             GN_PARAM(GnConvolutionParams, scale, real, 1, 8, "",
-                     "Stretches the step about its middle and clamps it: less acne and bleeding, harder penumbrae."),
+                     "Multiplies the value, which is clamped to 1: at 2 no surface shades itself, and penumbrae reach "
+                     "less far out."),
             GN_PARAM(GnConvolutionParams, span, real, 0.1, 1, "",
                      "Share of the half period that depth takes: finer steps, but at 1 the far end wraps into light."),
         },

@@ -51,8 +51,8 @@ GN_FN float gn_convolution_receiver(float depth, GnConvolutionParams params) {
     return clamp(depth, 0.0f, 1.0f) * params.span - params.offset / (2.0f * float(params.terms));
 }
 
-// The series is 1/2 on the step itself; scaled and clamped, it climbs faster. [AMB+07] 4.2
-GN_FN float gn_convolution_step(float sum, float scale) { return clamp(0.5f + scale * sum, 0.0f, 1.0f); }
+// [EASW09] 4.2.3: the value is scaled and clamped. It is 1/2 on the step itself, which a scale of 2 makes lit.
+GN_FN float gn_convolution_step(float sum, float scale) { return clamp(scale * (0.5f + sum), 0.0f, 1.0f); }
 
 #ifdef __cplusplus
 }  // namespace gn::glsl

@@ -8,8 +8,8 @@
 struct GnConvolutionParams {
     int terms GN_DEFAULT(16);
     float attenuation GN_DEFAULT(0.5f);
-    float offset GN_DEFAULT(0.8f);
-    float scale GN_DEFAULT(1.1f);
+    float offset GN_DEFAULT(0.0f);
+    float scale GN_DEFAULT(2.0f);
     float span GN_DEFAULT(0.9f);
     GnPrefilterParams prefilter;
 };
