@@ -36,6 +36,7 @@ struct GnReceiver {
 struct GnProjected {
     vec2 uv_ts;             // in the layer
     float depth;            // linear depth in [0,1], moved towards the light by the bias
+    float bias;             // what the bias took off it
     int layer;
     vec2 plane_slope;       // depth of the receiver's plane at uv + d: depth + dot(slope, d) / (1 - dot(fall, d))
     vec2 plane_fall;
@@ -146,6 +147,7 @@ GN_FN GnProjected gn_project_paraboloid(GnProjected result, GnLightView view, ve
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (u / view.paraboloid * 0.5f + 0.5f) * extent_ts;
     float depth = length(p_ls) / view.metres_per_depth;
     result.depth = depth - gn_depth_epsilon;
+    result.bias -= depth;
     result.inside = max(abs(u.x), abs(u.y)) <= view.paraboloid;
     result.plane_slope = vec2(0.0f);
     result.plane_fall = vec2(0.0f);
@@ -196,6 +198,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     vec4 p_cs = gn_clip(view, p_ws);
     if (view.paraboloid > 0.0f) {
+        result.bias = length(vec3(gn_clip(view, receiver.p_ws))) / view.metres_per_depth;
         return gn_open_cone(gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws), bias.cone, unit, bias);
     }
     result.plane_curve = vec2(0.0f);
@@ -203,6 +206,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
     result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
+    result.bias = -dot(vec3(view.depth_from_ws), p_ws - receiver.p_ws);
     result.inside = p_cs.w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
 
     // The receiver's plane: displacements e_u, e_v within it that move uv by one, to first order; the division in

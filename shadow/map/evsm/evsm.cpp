@@ -51,8 +51,26 @@ Guard guard(const Recipe& recipe) {
     return blur_guard(recipe.of<GnEvsmParams>("evsm").prefilter);
 }
 
+/// The sentence that refuses an exponent whose moments the format cannot hold, or "".
+std::string refuse_exponent(std::string_view parameter, float exponent, int format) {
+    const float limit = glsl::gn_evsm_limit(format);
+    return exponent <= limit
+               ? ""
+               : fmt::format(
+                     "{} = {} is more than evsm.format = {} can hold; at most {} fits, and 0 takes what is usual",
+                     parameter, exponent, format == GN_EVSM_FLOAT16 ? "float16" : "float32", limit);
+}
+
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
-    return refuse_samples("evsm.samples", recipe.of<GnEvsmParams>("evsm").samples);
+    const auto params = recipe.of<GnEvsmParams>("evsm");
+    std::string sentence = refuse_samples("evsm.samples", params.samples);
+    if (sentence.empty()) {
+        sentence = refuse_exponent("evsm.exponent", params.exponent, params.format);
+    }
+    if (sentence.empty() && params.components == GN_EVSM_FOUR) {
+        sentence = refuse_exponent("evsm.exponent_negative", params.exponent_negative, params.format);
+    }
+    return sentence;
 }
 
 ParamTable rows() {
@@ -62,12 +80,17 @@ ParamTable rows() {
                 GnEvsmParams, components,
                 "2 keeps the moments of exp(c z) only, 4 also those of -exp(-c z): less bleeding, twice the memory.",
                 "2", "4"),
-            GN_CHOICE(GnEvsmParams, format, "Floats of 16 bits limit both exponents to 5, those of 32 bits to 42.",
+            GN_CHOICE(GnEvsmParams, format,
+                      "Floats of 16 bits hold exponents up to 5 and halve the memory, those of 32 bits up to 42.",
                       "float16", "float32"),
-            GN_PARAM(GnEvsmParams, exponent, real, 1, 42, "",
-                     "Steepness of exp(c z), z in [-1,1]: less bleeding, harder rims where receivers are uneven."),
-            GN_PARAM(GnEvsmParams, exponent_negative, real, 1, 42, "",
-                     "Steepness of -exp(-c z): fewer of those hard rims, more bleeding behind the first caster."),
+            GN_PARAM(GnEvsmParams, exponent, real, 0, 42, "",
+                     "Steepness of exp(c z), z in [-1,1]: less bleeding, harder rims where receivers are uneven; 0 "
+                     "takes 20, "
+                     "and 5 in 16 bits."),
+            GN_PARAM(
+                GnEvsmParams, exponent_negative, real, 0, 42, "",
+                "Steepness of -exp(-c z): fewer of those hard rims, more bleeding behind the first caster; 0 takes 10, "
+                "and 5 in 16 bits."),
             samples_row(offsetof(GnEvsmParams, samples)),
             slope_moment_row(offsetof(GnEvsmParams, slope_moment)),
             min_deviation_row(offsetof(GnEvsmParams, min_deviation)),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exponential variance shadow maps: two moments of depth after each of two monotonic warps.
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
-// Departs from it: exponents are limited by the format, so that no moment overflows.
 #ifndef GN_SHADOW_MAP_EVSM_GLSL
 #define GN_SHADOW_MAP_EVSM_GLSL
 
@@ -14,6 +13,13 @@ namespace gn::glsl {
 
 // The largest exponent of a format: the second moment is at most 2 exp(2 c), which must stay below 65504 or 3.4e38.
 GN_FN float gn_evsm_limit(int format) { return format == GN_EVSM_FLOAT16 ? 5.0f : 42.0f; }
+
+// The exponents of both warps; 0 stands for what is usual, as far as the format holds it. Others are refused beforehand.
+GN_FN vec2 gn_evsm_exponents(GnEvsmParams params) {
+    float limit = gn_evsm_limit(params.format);
+    return vec2(params.exponent > 0.0f ? params.exponent : min(20.0f, limit),
+                params.exponent_negative > 0.0f ? params.exponent_negative : min(10.0f, limit));
+}
 
 // Share of a second moment that may be rounding: four units of the format's significand.
 GN_FN float gn_evsm_rounding(int format) { return format == GN_EVSM_FLOAT16 ? 1.0f / 512.0f : 1.0f / 4194304.0f; }
@@ -32,10 +38,9 @@ GN_FN vec2 gn_evsm_moments(float warped, float c, vec2 slope) {
 
 // What a texel stores: positive moments, then negative ones.
 GN_FN vec4 gn_evsm_encode(float depth, vec2 slope, GnEvsmParams params) {
-    float c = min(params.exponent, gn_evsm_limit(params.format));
-    float c_negative = min(params.exponent_negative, gn_evsm_limit(params.format));
-    vec2 positive = gn_evsm_moments(gn_evsm_positive(depth, c), c, slope);
-    vec2 negative = gn_evsm_moments(gn_evsm_negative(depth, c_negative), c_negative, slope);
+    vec2 c = gn_evsm_exponents(params);
+    vec2 positive = gn_evsm_moments(gn_evsm_positive(depth, c.x), c.x, slope);
+    vec2 negative = gn_evsm_moments(gn_evsm_negative(depth, c.y), c.y, slope);
     return vec4(positive.x, positive.y, negative.x, negative.y);
 }
 
@@ -48,14 +53,20 @@ GN_FN float gn_evsm_bound(vec2 moments, float warped, float c, float deviation, 
 // [Lau08] 4.2: both bounds hold, so the smaller does. `deviation` is the least one assumed, in depth.
 GN_FN float gn_evsm_visible(vec4 moments, float depth, float deviation, GnEvsmParams params) {
     float d = clamp(depth, 0.0f, 1.0f);
-    float c = min(params.exponent, gn_evsm_limit(params.format));
-    float bound = gn_evsm_bound(vec2(moments.x, moments.y), gn_evsm_positive(d, c), c, deviation, params.format);
+    vec2 c = gn_evsm_exponents(params);
+    float bound = gn_evsm_bound(vec2(moments.x, moments.y), gn_evsm_positive(d, c.x), c.x, deviation, params.format);
     if (params.components == GN_EVSM_FOUR) {
-        c = min(params.exponent_negative, gn_evsm_limit(params.format));
-        float negative = gn_evsm_bound(vec2(moments.z, moments.w), gn_evsm_negative(d, c), c, deviation, params.format);
+        float negative =
+            gn_evsm_bound(vec2(moments.z, moments.w), gn_evsm_negative(d, c.y), c.y, deviation, params.format);
         bound = min(bound, negative);
     }
     return gn_vsm_reduce_bleeding(bound, params.bleeding);
+}
+
+// A bias b of depth makes w = exp(c z) smaller by its share 2 c b, many times what it is worth to a plain map. It is applied
+// to w instead: the depth moves by 1 / (2 c) of it.
+GN_FN float gn_evsm_receiver(GnProjected projected, float c) {
+    return projected.depth + projected.bias * (1.0f - 0.5f / max(c, 0.5f));
 }
 
 #ifdef __cplusplus
@@ -65,7 +76,9 @@ GN_FN float gn_evsm_visible(vec4 moments, float depth, float deviation, GnEvsmPa
 float gn_evsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
                          GnEvsmParams params) {
     vec4 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
-    return gn_evsm_visible(moments, projected.depth, gn_vsm_deviation(projected, params.min_deviation), params);
+    vec2 c = gn_evsm_exponents(params);
+    float depth = gn_evsm_receiver(projected, max(c.x, c.y));
+    return gn_evsm_visible(moments, depth, gn_vsm_deviation(projected, params.min_deviation), params);
 }
 
 #endif

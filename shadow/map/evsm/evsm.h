@@ -13,13 +13,13 @@
 struct GnEvsmParams {
     int components GN_DEFAULT(GN_EVSM_FOUR);
     int format GN_DEFAULT(GN_EVSM_FLOAT32);
-    float exponent GN_DEFAULT(20.0f);
-    float exponent_negative GN_DEFAULT(10.0f);
+    float exponent GN_DEFAULT(0.0f);
+    float exponent_negative GN_DEFAULT(0.0f);
     int samples GN_DEFAULT(1);
     GnPrefilterParams prefilter;
     int slope_moment GN_DEFAULT(1);
     float min_deviation GN_DEFAULT(1.0f);
-    float bleeding GN_DEFAULT(0.1f);
+    float bleeding GN_DEFAULT(0.2f);
 };
 
 #endif
