@@ -1,13 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Exponential shadow maps: exp(c z) in one 32-bit float, and the unblurred map beside it for the fallback.
+// Exponential shadow maps: exp(c z) in one 32-bit float, and a pyramid of depths beside it for the fallback.
 //
 // Based on: Annen, Mertens, Seidel, Flerackers, Kautz. Exponential Shadow Maps. GI 2008. [AMS+08]
 #include "shadow/map/esm/esm.glsl"
 
+#include "shadow/map/derived.h"
 #include "shadow/map/prefilter.h"
 
 namespace gn {
 namespace {
+
+/// One texel a sample: a map of twice the side, the samples where they lie in their texel.
+TextureHandle add_spread(const FrameInput& input, TextureHandle samples) {
+    static constexpr const char* text = R"(
+layout(binding = 0) uniform sampler2DMSArray samples;
+layout(push_constant) uniform Push { int push_layer; };
+layout(location = 0) out vec4 out_depth;
+void main() {
+    // The standard places of four samples are one in each quarter, row by row.
+    ivec2 cell = ivec2(gl_FragCoord.xy);
+    out_depth = vec4(texelFetch(samples, ivec3(cell >> 1, push_layer), (cell.x & 1) + 2 * (cell.y & 1)).r);
+}
+)";
+    TextureDesc desc = input.graph.desc(samples);
+    desc.name = "map depths of samples";
+    desc.format = VK_FORMAT_R32_SFLOAT;
+    desc.width *= 2;
+    desc.height *= 2;
+    desc.samples = 1;
+    desc.usage = 0;
+    const TextureHandle target = input.graph.create(desc);
+    for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
+        input.graph.add_pass(
+            "spread samples",
+            [&](PassBuilder& pass) {
+                pass.sample(samples);
+                pass.color(target, Load::discard, {}, one_layer(layer));
+            },
+            [=](Recorder& r) {
+                r.bind(fullscreen({ShaderKind::fragment, "spread samples", text}));
+                r.set("samples", samples);
+                r.push_value(static_cast<std::int32_t>(layer));
+                r.draw(3);
+            });
+    }
+    return target;
+}
 
 ShadowMap add_esm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnEsmParams>("esm");
@@ -25,11 +63,15 @@ layout(location = 0) out vec4 out_moments;
 )";
     moments.fragment.body = "out_moments = vec4(gn_esm_encode(depth, map_params.exponent), 0, 0, 0);";
     moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
-    // Blur and mipmap; the fallback reads what was drawn.
+    // Blur and mipmap; the fallback compares depths, and skips what a pyramid of their ranges decides.
     ShadowMap map = filtered_map(input, raw, params.prefilter);
-    map.extra = params.fallback != 0 && map.texture != raw ? raw : TextureHandle{};
+    if (params.fallback != 0) {
+        const TextureHandle depths = params.samples > 1 ? add_spread(input, moments.depth) : moments.depth;
+        map.extra = add_min_max_pyramid(input.graph, depths);
+    }
     return map;
 }
 
@@ -60,8 +102,13 @@ const Part& map_esm() {
                          "Steepness of exp(c z), z in [0,1]: less light just behind casters, more failing receivers."),
                 GN_PARAM(GnEsmParams, fallback, boolean, 0, 1, "",
                          "Compares texel by texel where the exponential fails: right there, and slow there."),
+                GN_CHOICE(
+                    GnEsmParams, classifier,
+                    "What tells that it fails: the filtered value itself, fast, or the greatest depth of the kernel, "
+                    "safe and slow.",
+                    "product", "maximum"),
                 GN_PARAM(GnEsmParams, epsilon, real, 0, 1, "",
-                         "How far the filtered value may exceed one before the fallback is taken: faster, less exact."),
+                         "How far that value may exceed one before the fallback is taken: faster, less exact."),
                 samples_row(offsetof(GnEsmParams, samples)),
             },
             offsetof(GnEsmParams, prefilter)));
