@@ -37,6 +37,12 @@ std::map<std::string, VkDeviceSize> blurred(VkDeviceSize bytes_per_texel, VkDevi
             {"map blurred", chain(bytes_per_texel, layers)}};
 }
 
+std::map<std::string, VkDeviceSize> with(std::map<std::string, VkDeviceSize> rows, const char* name,
+                                         VkDeviceSize bytes) {
+    rows[name] = bytes;
+    return rows;
+}
+
 class Memory : public testing::TestWithParam<MemoryCase> {};
 
 TEST_P(Memory, RowsEqualTheFormatsArithmetic) {
@@ -70,8 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "vsm,vsm.blur=none,vsm.samples=4",
                    {{"map samples", 4 * plain(8)}, {"map", chain(8)}, {"map depth", 4 * plain(4)}}},
         MemoryCase{"vsm_in_cascades", "vsm,placement=cascades,cascades.count=2", blurred(8, 2)},
-        MemoryCase{"esm", "esm", blurred(4)}, MemoryCase{"evsm2", "evsm2", blurred(8)},
-        MemoryCase{"evsm4_half", "evsm4,evsm.format=float16", blurred(8)},
+        MemoryCase{"esm", "esm,esm.fallback=0", blurred(4)},
+        // The fallback keeps the range of depths under every texel of every level.
+        MemoryCase{"esm_with_fallback", "esm", with(blurred(4), "map min max", chain(8))},
+        MemoryCase{"evsm2", "evsm2", blurred(8)}, MemoryCase{"evsm4_half", "evsm4,evsm.format=float16", blurred(8)},
         MemoryCase{"evsm4", "evsm4,evsm.format=float32", blurred(16)},
         MemoryCase{"msm", "msm,msm.format=unorm16", blurred(8)},
         MemoryCase{"msm_float", "msm,msm.format=float32", blurred(16)},
