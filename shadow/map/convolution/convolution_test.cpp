@@ -52,6 +52,13 @@ TEST(Convolution, AScaleOfTwoMakesTheStepItselfLit) {
     EXPECT_NEAR(gn_convolution_step(-0.25F, 2), 0.5F, 1e-6F);
 }
 
+TEST(Convolution, AnOffsetMovesTheReceiverTowardsTheLight) {
+    // Half widths of the ramp: at one the surface itself is lit, and what lies one before it was lit already.
+    const GnConvolutionParams params{.attenuation = 0, .offset = 1, .scale = 1};
+    EXPECT_GT(visible({0.5F}, 0.5F, params), 0.95F);
+    EXPECT_LT(gn_convolution_receiver(0.5F, params), 0.5F * params.span);
+}
+
 TEST(Convolution, AttenuationTakesTheRingingOffAStep) {
     // Beside the jump a truncated series swings past what it stands for, by 9 % of it (Gibbs).
     const auto overshoot = [](float attenuation) {
