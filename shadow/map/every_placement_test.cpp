@@ -27,14 +27,17 @@ TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
     // What is left: exp(-c h) of a caster h before the receiver, and of moments what their rounding is worth. Both go with
     // the share of the depth range that the box has, and are a few hundredths at most.
     const test::ComparisonOptions options{.width = 72, .height = 72, .samples = 1};
-    const std::vector<std::pair<std::string, std::string>> placed{{"contact:light=point", "cube"},
-                                                                  {"contact:light=point", "paraboloid"},
-                                                                  {"contact", "single"},
-                                                                  {"contact", "fit"},
-                                                                  {"contact", "lispsm"},
-                                                                  {"contact", "tsm"},
-                                                                  {"contact", "psm"},
-                                                                  {"contact", "cascades"}};
+    std::vector<std::pair<std::string, std::string>> placed{{"contact:light=point", "cube"},
+                                                            {"contact:light=point", "paraboloid"},
+                                                            {"contact", "single"},
+                                                            {"contact", "fit"},
+                                                            {"contact", "lispsm"},
+                                                            {"contact", "tsm"},
+                                                            {"contact", "psm"},
+                                                            {"contact", "cascades"}};
+#ifdef __SANITIZE_ADDRESS__
+    placed.resize(2);  // sanitizers see the same code on every other
+#endif
     for (const auto& [scene, placement] : placed) {
         for (const Part* map : all_parts()) {
             // A convolution map's step is a ramp of 1 / 32 of the range: over the whole ground as high as the box.
