@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/options.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/options.h"
 #include "base/paths.h"
-#include "shadow/part.h"
+#include "shadow/recipe/part.h"
 
 namespace gn {
 namespace {

@@ -3,7 +3,7 @@
 #include "apps/options.h"
 #include "apps/terminal.h"
 #include "shadow/metrics/metrics.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 #include <nlohmann/json.hpp>
 

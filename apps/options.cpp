@@ -3,7 +3,7 @@
 
 #include "apps/output.h"
 #include "base/param.h"
-#include "shadow/lookup/show.h"
+#include "shadow/show/show.h"
 
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>

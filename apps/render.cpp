@@ -6,10 +6,10 @@
 #include "apps/output.h"
 #include "apps/reach.h"
 #include "apps/terminal.h"
-#include "shadow/check_recipe.h"
-#include "shadow/frame.h"
-#include "shadow/lookup/show.h"
+#include "shadow/frame/frame.h"
+#include "shadow/recipe/check_recipe.h"
 #include "shadow/shading/tonemap.h"
+#include "shadow/show/show.h"
 
 #include <algorithm>
 #include <array>

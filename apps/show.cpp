@@ -5,7 +5,7 @@
 #include "apps/terminal.h"
 #include "base/paths.h"
 #include "shadow/metrics/metrics.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 #include <algorithm>
 #include <fstream>

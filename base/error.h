@@ -6,7 +6,7 @@
 //   a broken invariant of our own                       GN_CHECK: prints the values and aborts
 //   something that may well be absent                   std::optional
 //
-// No exception crosses the library's public boundary (shadow/host.h) into a host.
+// No exception crosses the library's public boundary (shadow/embed/host.h) into a host.
 #pragma once
 
 #include <fmt/format.h>

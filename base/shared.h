@@ -46,7 +46,7 @@ using namespace glm;  // NOLINT: abs, clamp, mix, dot ... as GLSL has them; form
 
 #endif
 
-// What a formula's clamp would hide. Nothing, but where a host defines it before: see shadow/lookup/expect.h.
+// What a formula's clamp would hide. Nothing, but where a host defines it before: see shadow/receiver/expect.h.
 #ifndef GN_EXPECT
 #define GN_EXPECT(condition)
 #endif

@@ -34,7 +34,7 @@ function(gn_registry output sources_out tests_out)
   endforeach()
   file(GENERATE OUTPUT ${output} CONTENT
 "// Generated from the folders shadow/<stage>/<id>/.
-#include \"shadow/part.h\"
+#include \"shadow/recipe/part.h\"
 
 #include <array>
 

@@ -22,7 +22,7 @@ struct GnLightView {
     float grid GN_DEFAULT(0.0f);  ///< affine views that keep their texels: rounds clip coordinates, see gn_clip; else 0
     float paraboloid
         GN_DEFAULT(0.0f);  ///< above 0: cs_from_ws gives metres in the light's frame, the map covers this far
-                           ///< in the coordinates of shadow/paraboloid.glsl, depth is the distance
+                           ///< in the coordinates of shadow/receiver/paraboloid.glsl, depth is the distance
 };
 
 #ifdef __cplusplus

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The types of the flow, in order. With shadow/frame.cpp the file to read first.
+// The types of the flow, in order. With shadow/frame/frame.cpp the file to read first.
 //
 //     scene -> view samples -> placement -> map -> lookup -> visibility image -> shading -> picture
 //                                  \______ direct (no map) ______/
 #pragma once
 
 #include "gpu/frame_graph.h"
-#include "shadow/bias.h"
 #include "shadow/light_view.h"
+#include "shadow/receiver/bias.h"
 #include "shadow/scene/scene.h"
 
 #include <functional>

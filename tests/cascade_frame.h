@@ -2,7 +2,7 @@
 // What the tests of cascades share: receivers made by hand, and a frame whose views and maps can be looked at.
 #pragma once
 
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "shadow/placement/cascades/cascade_views.h"
 #include "shadow/placement/cascades/cascades.glsl"
 #include "tests/rig.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reference/truth.h"
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 #include "shadow/metrics/metrics.h"
 
 #include <gtest/gtest.h>

@@ -107,7 +107,7 @@ def refuses_dropped_results(prefix):
     """A call whose result is dropped must be an error for a compiler that is asked to make it one; the same call kept must not."""
     for use, compiles in (("const auto kept = session.load_scene(\"stack\"); (void)kept.ok();", True),
                           ("session.load_scene(\"stack\");", False)):
-        source = "#include \"shadow/host.h\"\nvoid use(gn::host::Session& session) { " + use + " }\n"
+        source = "#include \"shadow/embed/host.h\"\nvoid use(gn::host::Session& session) { " + use + " }\n"
         includes = [f"-I{folder}" for folder in (prefix / "include" / "gnomon", prefix / "include")]
         done = subprocess.run(["g++", "-std=c++20", "-fsyntax-only", "-Werror=unused-result", *includes, "-x", "c++", "-"],
                               input=source, capture_output=True, text=True, check=False)

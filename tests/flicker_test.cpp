@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flicker as rendered: cascades that keep their texels fixed to the world against those that follow the camera.
 #include "shadow/metrics/flicker.h"
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "tests/cascade_frame.h"
 #include "tests/warp_scene.h"
 

@@ -5,7 +5,7 @@
 #include "apps/compare/result.h"
 #include "apps/options.h"
 #include "reference/truth.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 #include "shadow/stages.h"
 
 #include <filesystem>

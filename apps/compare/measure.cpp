@@ -6,9 +6,9 @@
 #include "apps/notes.h"
 #include "apps/output.h"
 #include "apps/reach.h"
-#include "shadow/lookup/show.h"
 #include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
+#include "shadow/show/show.h"
 
 #include <algorithm>
 #include <cmath>

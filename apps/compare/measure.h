@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/compare/session.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 namespace gn {
 

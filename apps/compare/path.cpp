@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/path.h"
 
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "shadow/metrics/flicker.h"
 
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "apps/options.h"
 #include "apps/terminal.h"
 #include "reference/truth.h"
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 
 #include <memory>
 

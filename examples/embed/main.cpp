@@ -2,7 +2,7 @@
 // Somebody else's renderer, in one page: it owns the device and the geometry, and asks Gnomon for a visibility image.
 #include "host_device.h"
 
-#include "shadow/host.h"
+#include "shadow/embed/host.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The resolve pass: every view sample through the placement's choice, the bias and the lookup's function. Its shader is
 // composed of includes; no combination of parts is ever written down.
-#include "shadow/frame.h"
-#include "shadow/lookup/expect.h"
-#include "shadow/lookup/sample_pass.h"
+#include "shadow/frame/frame.h"
+#include "shadow/receiver/expect.h"
+#include "shadow/receiver/sample_pass.h"
 
 namespace gn {
 namespace {

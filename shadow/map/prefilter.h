@@ -3,8 +3,8 @@
 // step is a pass of the graph and keeps the map's layers.
 #pragma once
 
+#include "shadow/casters/raster.h"
 #include "shadow/map/prefilter_params.h"
-#include "shadow/map/raster.h"
 
 namespace gn {
 

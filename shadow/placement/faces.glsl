@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_PLACEMENT_FACES_GLSL
 #define GN_SHADOW_PLACEMENT_FACES_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

@@ -2,7 +2,7 @@
 // The placement stage, as the frame and all that look into it run it.
 #pragma once
 
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 #include "shadow/stages.h"
 
 namespace gn {

@@ -4,8 +4,8 @@
 // Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
 #pragma once
 
-#include "shadow/part.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/part.h"
+#include "shadow/recipe/recipe.h"
 #include "shadow/stages.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene on the GPU: four buffers and the base colour textures.
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 
 #include <atomic>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shading: a little light from everywhere, then each light times its visibility, one pass a light.
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 #include "shadow/scene/clusters.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // How exact are the positions? The interpolated position is moved along the triangle's exact normal into the triangle's
 // plane (the vertices are the very floats that the truth traces), so what remains is rounding: less than four units in
 // the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 

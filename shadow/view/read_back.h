@@ -2,7 +2,7 @@
 // From a finished graph to the CPU: samples, images, times.
 #pragma once
 
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 
 namespace gn {
 

@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_VIEW_VIEW_GLSL
 #define GN_SHADOW_VIEW_VIEW_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 struct GnViewConstants {
     mat4 cs_from_ws;

@@ -2,7 +2,7 @@
 // What the groups of ratios share: a device, scenes kept on it, what is timed, and the rows they print.
 #pragma once
 
-#include "shadow/frame.h"
+#include "shadow/frame/frame.h"
 
 #include <map>
 #include <memory>

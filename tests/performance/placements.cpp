@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Placements over others of as many texels, and kept maps over redrawn ones.
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "shadow/placement/place.h"
 #include "tests/performance/bench.h"
 

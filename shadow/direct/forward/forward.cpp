@@ -8,8 +8,8 @@
 // Also here: forward_passes.h, forward_passes.cpp.
 #include "shadow/direct/forward/forward_passes.h"
 
-#include "shadow/map/raster.h"
-#include "shadow/map_memory.h"
+#include "shadow/casters/raster.h"
+#include "shadow/frame/map_memory.h"
 #include "shadow/placement/place.h"
 #include "shadow/scene/casting.h"
 

@@ -2,8 +2,8 @@
 // Based on: Zhang. Forward Shadow Mapping. Eurographics Workshop on Rendering 1998. [Zha98]
 #include "shadow/direct/forward/forward_passes.h"
 
-#include "shadow/frame.h"
-#include "shadow/lookup/sample_pass.h"
+#include "shadow/frame/frame.h"
+#include "shadow/receiver/sample_pass.h"
 
 namespace gn {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shadow/direct/forward/forward.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 namespace gn {
 

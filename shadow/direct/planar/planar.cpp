@@ -7,8 +7,8 @@
 #include "shadow/direct/planar/planar.h"
 
 #include "shadow/direct/planar/planar_planes.h"
-#include "shadow/direct/stage.h"
-#include "shadow/recipe.h"
+#include "shadow/geometry/caster_geometry.h"
+#include "shadow/recipe/recipe.h"
 #include "shadow/view/draw.h"
 
 namespace gn::parts {

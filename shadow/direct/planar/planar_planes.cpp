@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/direct/planar/planar_planes.h"
 
-#include "shadow/direct/stage.h"
+#include "shadow/geometry/caster_geometry.h"
 #include "shadow/scene/clusters.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which form of volume each component takes for a light, and which components can be left out.
-#include "shadow/direct/stage.h"
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/geometry/caster_geometry.h"
 
 #include <algorithm>
 

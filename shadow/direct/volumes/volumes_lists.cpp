@@ -2,8 +2,8 @@
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
 // [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
-#include "shadow/direct/stage.h"
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/geometry/caster_geometry.h"
 #include "shadow/scene/casting.h"
 
 #include <cmath>

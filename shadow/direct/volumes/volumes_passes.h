@@ -2,9 +2,9 @@
 // The passes of one light's shadow volumes, in order.
 #pragma once
 
-#include "shadow/direct/edges.h"
 #include "shadow/direct/volumes/volumes.h"
-#include "shadow/recipe.h"
+#include "shadow/geometry/edges.h"
+#include "shadow/recipe/recipe.h"
 
 #include <memory>
 

@@ -4,8 +4,8 @@
 // Based on: Donnelly, Lauritzen. Variance Shadow Maps. I3D 2006. [DL06]
 #include "shadow/lookup/filtered/filtered.h"
 
-#include "shadow/part.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/part.h"
+#include "shadow/recipe/recipe.h"
 
 namespace gn {
 namespace {

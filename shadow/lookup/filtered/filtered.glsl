@@ -5,7 +5,7 @@
 #define GN_SHADOW_LOOKUP_FILTERED_GLSL
 
 #include "shadow/lookup/filtered/filtered.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

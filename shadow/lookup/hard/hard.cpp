@@ -2,7 +2,7 @@
 // Hard shadows: one comparison.
 //
 // Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
-#include "shadow/part.h"
+#include "shadow/recipe/part.h"
 
 namespace gn::parts {
 

@@ -4,7 +4,7 @@
 #ifndef GN_SHADOW_LOOKUP_HARD_GLSL
 #define GN_SHADOW_LOOKUP_HARD_GLSL
 
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifndef __cplusplus
 float gn_hard_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {

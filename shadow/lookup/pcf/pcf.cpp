@@ -6,8 +6,8 @@
 
 #include "shadow/lookup/pcf/pcf.glsl"
 #include "shadow/lookup/poisson.h"
-#include "shadow/part.h"
-#include "shadow/recipe.h"
+#include "shadow/recipe/part.h"
+#include "shadow/recipe/recipe.h"
 
 namespace gn {
 namespace {

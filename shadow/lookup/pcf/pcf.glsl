@@ -9,8 +9,8 @@
 #define GN_SHADOW_LOOKUP_PCF_GLSL
 
 #include "shadow/lookup/pcf/pcf.h"
-#include "shadow/noise.glsl"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/noise.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

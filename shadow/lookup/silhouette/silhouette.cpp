@@ -4,7 +4,7 @@
 // Based on: Sen, Cammarano, Hanrahan. Shadow Silhouette Maps. SIGGRAPH 2003. [SCH03]
 //
 // Stands on: shadow/map/silhouette_map (what a cell stores)
-#include "shadow/part.h"
+#include "shadow/recipe/part.h"
 
 namespace gn {
 namespace {

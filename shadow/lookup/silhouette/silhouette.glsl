@@ -5,7 +5,7 @@
 #define GN_SHADOW_LOOKUP_SILHOUETTE_GLSL
 
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

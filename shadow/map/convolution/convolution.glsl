@@ -7,7 +7,7 @@
 #define GN_SHADOW_MAP_CONVOLUTION_GLSL
 
 #include "shadow/map/convolution/convolution.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

@@ -3,8 +3,8 @@
 //
 // Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
 // Departs from it: depth is linear in distance under every projection, so one bias means the same everywhere.
-#include "shadow/map/casters.h"
-#include "shadow/part.h"
+#include "shadow/casters/caster_depth.h"
+#include "shadow/recipe/part.h"
 
 namespace gn::parts {
 

@@ -8,7 +8,7 @@
 
 #include "shadow/map/derived.glsl"
 #include "shadow/map/esm/esm.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

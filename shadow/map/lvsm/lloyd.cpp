@@ -3,7 +3,7 @@
 // relaxation by one workgroup a map layer.
 //
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "shadow/map/lvsm/lvsm_passes.h"
 
 namespace gn {

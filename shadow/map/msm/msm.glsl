@@ -5,7 +5,7 @@
 #define GN_SHADOW_MAP_MSM_GLSL
 
 #include "shadow/map/msm/msm.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

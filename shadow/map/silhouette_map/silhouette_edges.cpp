@@ -5,8 +5,8 @@
 // Based on: Sen, Cammarano, Hanrahan. Shadow Silhouette Maps. SIGGRAPH 2003. [SCH03]
 #include "shadow/map/silhouette_map/silhouette_edges.h"
 
-#include "shadow/direct/edges.h"
-#include "shadow/direct/stage.h"
+#include "shadow/geometry/caster_geometry.h"
+#include "shadow/geometry/edges.h"
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
 #include "shadow/scene/casting.h"
 

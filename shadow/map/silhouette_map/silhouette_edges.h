@@ -2,7 +2,7 @@
 // Silhouettes rasterized into cells.
 #pragma once
 
-#include "shadow/recipe.h"
+#include "shadow/recipe/recipe.h"
 
 namespace gn {
 

@@ -6,7 +6,7 @@
 #define GN_SHADOW_MAP_VSM_GLSL
 
 #include "shadow/map/vsm/vsm.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {

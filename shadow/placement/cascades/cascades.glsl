@@ -6,7 +6,7 @@
 #ifndef GN_SHADOW_PLACEMENT_CASCADES_GLSL
 #define GN_SHADOW_PLACEMENT_CASCADES_GLSL
 
-#include "shadow/noise.glsl"
+#include "shadow/receiver/noise.glsl"
 #include "shadow/placement/cascades/cascades.h"
 #include "shadow/placement/faces.glsl"
 

@@ -4,7 +4,7 @@
 // Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
 // Departs from it: the kept texture wraps around instead of being shifted, so that nothing is copied and every texel of
 // the grid is always rasterized at the same place, to the same bits.
-#include "shadow/history.h"
+#include "shadow/frame/history.h"
 #include "shadow/placement/cascades/cascade_views.h"
 
 #include <algorithm>

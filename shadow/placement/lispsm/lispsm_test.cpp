@@ -2,7 +2,7 @@
 // Closed forms of the warp, its fallback, and what a warped map may not break.
 #include "shadow/placement/lispsm/lispsm.h"
 #include "shadow/placement/warp.h"
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 #include "tests/warp_scene.h"
 
 #include <random>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Laws of the mirror on the CPU, and its pictures against traced truth and against a cube's.
-#include "shadow/paraboloid.glsl"
+#include "shadow/receiver/paraboloid.glsl"
 
-#include "shadow/receiver.glsl"
+#include "shadow/receiver/receiver.glsl"
 #include "tests/warp_scene.h"
 
 #include <random>

@@ -6,8 +6,8 @@
 // Based on: Pham, van Vliet. Separable Bilateral Filtering for Fast Video Preprocessing. ICME 2005. [PV05]
 #include "shadow/visibility/bilateral/bilateral.h"
 
-#include "shadow/frame.h"
-#include "shadow/lookup/expect.h"
+#include "shadow/frame/frame.h"
+#include "shadow/receiver/expect.h"
 
 namespace gn {
 namespace {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Based on: Wang, Molnar. Second-Depth Shadow Mapping. UNC TR94-019 1994. [WM94]
+// Based on: Woo. The Shadow Depth Map Revisited. Graphics Gems III 1992. [Woo92]
+// Based on: Weiskopf, Ertl. Shadow Mapping Based on Dual Depth Layers. Eurographics 2003. [WE03]
+// Based on: Hourcade, Nicolas. Algorithms for Antialiased Cast Shadows. Computers and Graphics 1985. [HN85]
+// Departs from them: the second layer is peeled, for open meshes too; ids are of objects and stand beside depth, so that
+// objects at each other's silhouettes do not darken each other.
+#include "shadow/casters/caster_depth.h"
+
+#include "shadow/casters/caster_draw.h"
+#include "shadow/receiver/sample_pass.h"
+
+namespace gn {
+namespace {
+
+TextureHandle create_map(const FrameInput& input, const LightViews& views, const char* name, VkFormat format) {
+    return input.graph.create({.name = name,
+                               .format = format,
+                               .width = views.resolution,
+                               .height = views.resolution,
+                               .layers = views.layers});
+}
+
+/// Views that are drawn one by one and anew, so that a fragment knows its layer.
+LightViews one_by_one(LightViews views) {
+    views.layered = false;
+    views.kept.reset();
+    return views;
+}
+
+/// The nearest surface behind `nearest`: its own fragments, found again, are dropped.
+TextureHandle add_second(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                         TextureHandle nearest_depth) {
+    CasterPass pass;
+    pass.name = "map second";
+    pass.every_side = true;
+    pass.depth = create_map(input, views, "map second", VK_FORMAT_D32_SFLOAT);
+    pass.fragment.includes = R"(
+#include "shadow/receiver/receiver.glsl"
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(binding = 4) uniform sampler2DArray nearest_depth;
+)";
+    pass.fragment.body = R"(
+#ifdef GN_WRITE_DEPTH
+    float own = depth;
+#else
+    float own = clamp(gl_FragCoord.z, 0.0, 1.0);
+#endif
+    if (own <= texelFetch(nearest_depth, ivec3(gl_FragCoord.xy, views[push.view].layer), 0).r + gn_depth_epsilon) {
+        discard;
+    }
+)";
+    pass.declare = [nearest_depth](PassBuilder& builder) { builder.sample(nearest_depth); };
+    pass.bind_values = [nearest_depth](Recorder& r) { r.set("nearest_depth", nearest_depth); };
+    add_caster_passes(input, recipe, one_by_one(views), pass);
+    return pass.depth;
+}
+
+RasterDesc between_pipeline(bool limited) {
+    const std::string text = std::string(limited ? "#define GN_LIMITED\n" : "") + R"(
+#include "shadow/casters/caster_depth.glsl"
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(binding = 1) uniform sampler2DArray nearest_depth;
+layout(binding = 2) uniform sampler2DArray second_depth;
+layout(binding = 3, scalar) uniform Constants { GnBias bias; } u;
+layout(push_constant, scalar) uniform Push { int view; } push;
+void main() {
+    ivec3 texel = ivec3(gl_FragCoord.xy, views[push.view].layer);
+    float nearest = texelFetch(nearest_depth, texel, 0).r;
+    float second = texelFetch(second_depth, texel, 0).r;
+#ifdef GN_LIMITED
+    vec2 uv_ts = gl_FragCoord.xy / views[push.view].resolution;
+    float limit = gn_dual_limit(views[push.view], uv_ts, nearest, u.bias);
+#else
+    float limit = 1.0;
+#endif
+    gl_FragDepth = gn_between(nearest, second, limit);
+}
+)";
+    RasterDesc desc = fullscreen({ShaderKind::fragment, "map between", text});
+    desc.depth_test = desc.depth_write = true;
+    desc.depth_compare = VK_COMPARE_OP_ALWAYS;
+    return desc;
+}
+
+/// The surface between both layers, view by view.
+TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle nearest,
+                          TextureHandle second) {
+    const TextureHandle map = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
+    std::vector<bool> cleared(views.layers, false);
+    for (std::size_t i = 0; i < views.views.size(); ++i) {
+        const auto layer = static_cast<std::uint32_t>(views.views[i].layer);
+        const Load load = cleared[layer] ? Load::keep : Load::clear;
+        cleared[layer] = true;
+        input.graph.add_pass(
+            "map between",
+            [&](PassBuilder& pass) {
+                pass.depth(map, load, {.depth = 1.0F}, one_layer(layer));
+                pass.sample(nearest);
+                pass.sample(second);
+                declare_views(pass, views);
+            },
+            [=, bias = applied_bias(recipe), limited = recipe.casters == "dual"](Recorder& r) {
+                set_viewport(r, views.views[i]);
+                r.bind(between_pipeline(limited));
+                set_views(r, views);
+                r.set("nearest_depth", nearest);
+                r.set("second_depth", second);
+                r.set_value("u", bias);
+                r.push_value(static_cast<int>(i));
+                r.draw(3);
+            });
+    }
+    return map;
+}
+
+}  // namespace
+
+ShadowMap add_caster_depth(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    ShadowMap map;
+    map.texture = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
+    map.sampler = nearest();
+    CasterPass pass{.depth = map.texture};
+    if (recipe.casters == "ids") {
+        map.extra = create_map(input, views, "map ids", VK_FORMAT_R32_SFLOAT);
+        pass.color = map.extra;
+        pass.clear_color = {.color = vec4(-1)};
+        pass.fragment = {"layout(location = 0) out float out_id;\n", "out_id = float(push.object);"};
+        pass.by_object = true;
+    }
+    add_caster_passes(input, recipe, views, pass);
+    if (recipe.casters == "midpoint" || recipe.casters == "dual") {
+        const TextureHandle second = add_second(input, recipe, views, map.texture);
+        map.texture = add_between(input, recipe, views, map.texture, second);
+    }
+    return map;
+}
+
+}  // namespace gn

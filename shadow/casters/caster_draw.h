@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Drawing the casters of one view (or of all views at once) inside a pass, and the passes of maps that are kept.
+#pragma once
+
+#include "shadow/casters/raster.h"
+
+namespace gn {
+
+/// Faces that one draw takes.
+struct CasterFaces {
+    VkCullModeFlags culled = VK_CULL_MODE_NONE;
+    bool pushed = false;  ///< a little away from the light: they lose ties
+    bool depth_only = false;
+};
+
+struct CasterDraw {
+    CasterPass pass;
+    Recipe recipe;
+    LightViews views;  ///< what the shaders see; `layered` draws all of them
+    SceneHandles handles;
+    const Scene* scene = nullptr;
+    const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
+    std::size_t view = 0;
+
+    /// What a pass must declare besides its attachments.
+    void declare(PassBuilder& builder) const;
+    /// Opaque casters, then alpha-tested ones; viewport and scissor are the caller's.
+    void record(Recorder& r) const;
+
+  private:
+    /// What is drawn: the view's objects that cast.
+    [[nodiscard]] std::vector<std::uint32_t> objects() const;
+    [[nodiscard]] std::uint32_t instances() const {
+        return views.layered ? static_cast<std::uint32_t>(views.views.size()) : 1;
+    }
+    void begin(Recorder& r, const CasterFaces& faces, bool masked) const;
+    void draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+};
+
+/// Viewport and scissor of a view's rectangle in its layer.
+void set_viewport(Recorder& r, const GnLightView& view);
+
+/// Whether a pass can keep its map over frames: the placement asks, and the attachments have one sample and one mip.
+bool can_keep(const FrameInput& input, const LightViews& views, const CasterPass& pass);
+/// Draws what the kept textures lack, then unwraps them into the pass's attachments.
+void add_kept_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass);
+
+}  // namespace gn

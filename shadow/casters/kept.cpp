@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Maps that live over frames: textures in a history that wrap around, of which each frame draws what is new and copies the
+// window that it shows.
+#include "shadow/casters/caster_draw.h"
+#include "shadow/frame/history.h"
+
+namespace gn {
+namespace {
+
+/// The kept counterparts of a pass's attachments.
+struct KeptTextures {
+    TextureHandle color, depth;
+    bool fresh = false;  ///< without contents
+};
+
+KeptTextures import_kept(const FrameInput& input, const KeptViews& kept, const CasterPass& pass) {
+    KeptTextures textures;
+    const auto import = [&](TextureHandle like, std::string_view what, VkImageUsageFlags attachment) {
+        TextureDesc desc = input.graph.desc(like);
+        desc.name = fmt::format("kept {} of {} {}", what, pass.name, kept.name);
+        desc.usage = attachment | VK_IMAGE_USAGE_SAMPLED_BIT;
+        bool fresh = false;
+        const TextureHandle handle = input.graph.import(kept.history->texture(desc, fresh));
+        textures.fresh = textures.fresh || fresh;
+        return handle;
+    };
+    textures.depth = import(pass.depth, "depth", VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    if (pass.color.valid()) {
+        textures.color = import(pass.color, "color", VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    }
+    return textures;
+}
+
+/// A full-screen pipeline that overwrites depth, and colour where there is one.
+RasterDesc overwrite(const std::string& name, bool color, const std::string& declarations, const std::string& body) {
+    const std::string text = std::string(color ? "layout(location = 0) out vec4 out_color;\n" : "") + declarations +
+                             "void main() {\n" + body + "}\n";
+    RasterDesc desc = fullscreen({ShaderKind::fragment, name, text});
+    desc.depth_test = desc.depth_write = true;
+    desc.depth_compare = VK_COMPARE_OP_ALWAYS;
+    return desc;
+}
+
+RasterDesc clear_pipeline(bool color) {
+    return overwrite("clear kept", color, "layout(push_constant, scalar) uniform Push { vec4 color; } push;\n",
+                     std::string(color ? "    out_color = push.color;\n" : "") + "    gl_FragDepth = 1.0;\n");
+}
+
+RasterDesc unwrap_pipeline(bool color) {
+    const std::string texel = "ivec3((ivec2(gl_FragCoord.xy) + push.shift) % push.size, push.layer), 0)";
+    std::string declarations = "layout(binding = 0) uniform sampler2DArray kept_depth;\n";
+    declarations += "layout(push_constant, scalar) uniform Push { ivec2 shift; int size; int layer; } push;\n";
+    declarations += color ? "layout(binding = 1) uniform sampler2DArray kept_color;\n" : "";
+    return overwrite("unwrap kept", color, declarations,
+                     std::string(color ? "    out_color = texelFetch(kept_color, " + texel + ";\n" : "") +
+                         "    gl_FragDepth = texelFetch(kept_depth, " + texel + ".r;\n");
+}
+
+/// Draws rectangles of one kept layer anew.
+void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass,
+               const KeptTextures& textures, std::uint32_t layer, const std::vector<KeptDraw>& draws) {
+    LightViews tiles = views;
+    tiles.layered = false;
+    tiles.kept.reset();
+    tiles.views.clear();
+    tiles.casters.clear();
+    for (const KeptDraw& draw : draws) {
+        tiles.views.push_back(draw.view);
+        tiles.casters.push_back(draw.casters);
+    }
+    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, &input.light(), 0};
+    input.graph.add_pass(
+        pass.name,
+        [&](PassBuilder& builder) {
+            if (textures.color.valid()) {
+                builder.color(textures.color, Load::keep, {}, one_layer(layer));
+            }
+            builder.depth(textures.depth, Load::keep, {}, one_layer(layer));
+            drawn.declare(builder);
+        },
+        [drawn, draws](Recorder& r) {
+            CasterDraw tile = drawn;
+            for (tile.view = 0; tile.view < draws.size(); ++tile.view) {
+                const ivec4 rect = draws[tile.view].rect;
+                r.scissor(rect.x, rect.y, static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
+                r.bind(clear_pipeline(tile.pass.color.valid()));
+                r.push_value(tile.pass.clear_color.color);
+                r.draw(3);
+                tile.record(r);
+            }
+        });
+}
+
+struct UnwrapPush {
+    ivec2 shift;
+    int size, layer;
+};
+
+/// Copies the window of one layer out of the kept textures.
+void add_unwrap(const FrameInput& input, const LightViews& views, const CasterPass& pass, const KeptTextures& textures,
+                std::uint32_t layer, ivec2 shift) {
+    const UnwrapPush push{shift, static_cast<int>(views.resolution), static_cast<int>(layer)};
+    input.graph.add_pass(
+        pass.name + " unwrap",
+        [&](PassBuilder& builder) {
+            if (pass.color.valid()) {
+                builder.color(pass.color, Load::discard, {}, one_layer(layer));
+                builder.sample(textures.color);
+            }
+            builder.depth(pass.depth, Load::discard, {}, one_layer(layer));
+            builder.sample(textures.depth);
+        },
+        [push, textures](Recorder& r) {
+            r.bind(unwrap_pipeline(textures.color.valid()));
+            r.set("kept_depth", textures.depth);
+            if (textures.color.valid()) {
+                r.set("kept_color", textures.color);
+            }
+            r.push_value(push);
+            r.draw(3);
+        });
+}
+
+}  // namespace
+
+bool can_keep(const FrameInput& input, const LightViews& views, const CasterPass& pass) {
+    const auto simple = [&](TextureHandle texture) {
+        const TextureDesc& desc = input.graph.desc(texture);
+        return desc.samples == 1 && desc.mips == 1 && desc.width == views.resolution && desc.layers == views.layers;
+    };
+    return views.kept.has_value() && simple(pass.depth) && (!pass.color.valid() || simple(pass.color));
+}
+
+void add_kept_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {
+    const KeptViews& kept = *views.kept;
+    const KeptTextures textures = import_kept(input, kept, pass);
+    for (std::size_t i = 0; i < kept.layers.size(); ++i) {
+        const std::vector<KeptDraw>& draws = textures.fresh ? kept.layers[i].whole : kept.layers[i].revealed;
+        if (!draws.empty()) {
+            add_draws(input, recipe, views, pass, textures, static_cast<std::uint32_t>(i), draws);
+        }
+    }
+    for (std::size_t i = 0; i < kept.layers.size(); ++i) {
+        add_unwrap(input, views, pass, textures, static_cast<std::uint32_t>(i), kept.layers[i].shift);
+    }
+}
+
+}  // namespace gn

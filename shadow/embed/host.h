@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The library's public boundary: what a foreign renderer calls. No exception leaves it; every failure is one sentence.
+// Only a broken invariant of the library's own (GN_CHECK) prints its values and aborts.
+//
+//     auto session = gn::host::Session::adopt({.instance = ..., .device = ..., .queue = ...});
+//     session.value().set_scene(std::move(scene));
+//     const auto frame = session.value().render(camera, "pcf,resolution=2048", {.width = 1280, .height = 720});
+//     if (frame.ok()) { use(frame.value().visibility[0]); } else { log(frame.why()); }
+#pragma once
+
+#include "gpu/device.h"
+#include "shadow/frame/frame.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace gn::host {
+
+/// A value, or one sentence why there is none. Whoever drops one misses that sentence.
+template <class T>
+class [[nodiscard]] Result {
+  public:
+    Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): returned by value
+    static Result failure(std::string why) {
+        Result result;
+        result.why_ = std::move(why);
+        return result;
+    }
+    [[nodiscard]] bool ok() const { return value_.has_value(); }
+    /// Only where ok().
+    [[nodiscard]] T& value() { return *value_; }
+    [[nodiscard]] const T& value() const { return *value_; }
+    [[nodiscard]] const std::string& why() const { return why_; }
+
+  private:
+    Result() = default;
+    std::optional<T> value_;
+    std::string why_;
+};
+
+/// Nothing, where only success matters.
+struct Done {};
+
+/// A device and a scene on it. Not thread-safe; the host keeps its queue to itself while a call runs.
+class Session {
+  public:
+    /// On the host's own device. Fails when it lacks what Gnomon needs, naming it.
+    static Result<Session> adopt(const AdoptedDevice& host) noexcept;
+    /// On a device of its own; `pick` is part of its name, "" the best there is.
+    static Result<Session> create(const std::string& pick = {}) noexcept;
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+    ~Session();
+
+    /// Takes the scene (world space, metres) and uploads it: bounds and missing normals are made, what is no triangle is
+    /// dropped with a note. Nothing is moved, no light and no camera is made up: without lights there are no images.
+    Result<Done> set_scene(Scene scene) noexcept;
+    /// The same from a file or a built-in name, completed as a scene of a file is: moved where it lies far from zero
+    /// (Scene::origin says from where), with a camera and a sun where it has none.
+    Result<Done> load_scene(const std::string& name_or_path) noexcept;
+    /// The scene as it was completed; null before set_scene.
+    [[nodiscard]] const Scene* scene() const noexcept;
+
+    /// V of every light (and the picture, when asked for) by a recipe: a name, a file, with overrides.
+    Result<FrameResult> render(const Camera& camera, const std::string& recipe, const FrameOptions& options) noexcept;
+
+  private:
+    struct State;
+    explicit Session(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace gn::host

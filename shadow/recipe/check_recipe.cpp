@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// What a recipe cannot do, asked before anything is drawn.
+#include "shadow/recipe/check_recipe.h"
+
+#include "shadow/casters/caster_depth.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gn {
+namespace {
+
+/// Ids of a stage's parts for which `fits` holds, "depth, moments", or "none".
+template <class Fits>
+std::string ids_of(Stage stage, const Fits& fits) {
+    std::string list;
+    for (const Part* part : all_parts()) {
+        if (part->stage == stage && fits(*part)) {
+            list += list.empty() ? "" : ", ";
+            list += part->id;
+        }
+    }
+    return list.empty() ? "none" : list;
+}
+
+std::string mismatch_of(const Part& map, const Part& lookup) {
+    if (lookup.needs.empty() || lookup.needs == map.gives) {
+        return {};
+    }
+    return fmt::format("lookup '{}' reads {} but map '{}' gives {}; maps that give {}: {}; lookups that read {}: {}",
+                       lookup.id, lookup.needs, map.id, map.gives, lookup.needs,
+                       ids_of(Stage::map, [&](const Part& part) { return part.gives == lookup.needs; }), map.gives,
+                       ids_of(Stage::lookup, [&](const Part& part) { return part.needs == map.gives; }));
+}
+
+/// The sentence why what the recipe keeps of its casters does not fit its parts or the scene, or "".
+std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
+    const std::string& casters = recipe.casters;
+    if (casters == "all" || (recipe.direct == nullptr && recipe.map == nullptr)) {
+        return {};
+    }
+    if (recipe.direct != nullptr) {
+        return fmt::format(
+            "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all", casters,
+            recipe.direct->id);
+    }
+    if (casters != "front" && casters != "back" && !recipe.map->separates_casters) {
+        return fmt::format("casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, front, back",
+                           casters, recipe.map->id,
+                           ids_of(Stage::map, [](const Part& part) { return part.separates_casters; }), recipe.map->id);
+    }
+    if (casters == "ids" && !recipe.lookup->compares_ids) {
+        return fmt::format("casters = ids: lookup '{}' compares depths only; lookups that compare ids: {}",
+                           recipe.lookup->id,
+                           ids_of(Stage::lookup, [](const Part& part) { return part.compares_ids; }));
+    }
+    if (casters == "ids" && scene.objects.size() > max_object_ids) {
+        return fmt::format("casters = ids: the scene has {} objects; at most {} have an id of their own",
+                           scene.objects.size(), max_object_ids);
+    }
+    return {};
+}
+
+constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
+
+void check_part(const Part& part, const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
+    const std::string_view stage = stage_names[static_cast<std::size_t>(part.stage)];
+    if (!part.lights.has(light.shape.kind)) {
+        refuse("{} '{}' does not serve {} lights such as '{}'; it serves {} lights", stage, part.id,
+               kinds.at(light.shape.kind), light.name, part.lights.names());
+    }
+    std::vector<Feature> features = part.features;
+    if (part.features_for != nullptr) {
+        const std::vector<Feature> more = part.features_for(recipe);
+        features.insert(features.end(), more.begin(), more.end());
+    }
+    for (const Feature feature : features) {
+        if (!device.has(feature)) {
+            refuse("{} '{}' needs the feature {}, which device '{}' lacks", stage, part.id, feature_name(feature),
+                   device.info().name);
+        }
+    }
+    if (part.refuses != nullptr) {
+        if (const std::string sentence = part.refuses(scene, light, recipe); !sentence.empty()) {
+            refuse("{}", sentence);
+        }
+    }
+}
+
+/// A placement is named for the lights that it serves.
+bool serves_some(const Part& placement, const Scene& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [&](const Light& light) { return placement.lights.has(light.shape.kind); });
+}
+
+}  // namespace
+
+void check_complete(const Recipe& recipe) {
+    if (recipe.lookup != nullptr && recipe.map == nullptr) {
+        fail("recipe {}: lookup '{}' reads a map and none is named; maps that give {}: {}", recipe.name,
+             recipe.lookup->id, recipe.lookup->needs,
+             ids_of(Stage::map, [&](const Part& part) { return part.gives == recipe.lookup->needs; }));
+    }
+    if (recipe.map != nullptr && recipe.lookup == nullptr) {
+        fail("recipe {}: map '{}' is read by no lookup; lookups that read {}: {}", recipe.name, recipe.map->id,
+             recipe.map->gives,
+             ids_of(Stage::lookup, [&](const Part& part) { return part.needs == recipe.map->gives; }));
+    }
+}
+
+std::string stages_misfit(const Recipe& recipe) {
+    return recipe.map != nullptr && recipe.lookup != nullptr ? mismatch_of(*recipe.map, *recipe.lookup) : "";
+}
+
+std::string placement_remark(const Recipe& recipe, const Scene& scene) {
+    if (recipe.placement == nullptr || !serves_some(*recipe.placement, scene)) {
+        return {};
+    }
+    std::string others;
+    for (uint kind = 0; kind < kinds.size(); ++kind) {
+        const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                        [&](const Light& l) { return l.shape.kind == kind; });
+        if (light != scene.lights.end() && !recipe.placement->lights.has(kind)) {
+            others += fmt::format("{}{} lights by '{}'", others.empty() ? "" : ", ", kinds.at(kind),
+                                  recipe.placement_for(light->shape).id);
+        }
+    }
+    return others.empty() ? ""
+                          : fmt::format("placement '{}' serves {} lights; placed otherwise: {}", recipe.placement->id,
+                                        recipe.placement->lights.names(), others);
+}
+
+void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
+    // A placement that serves none of the lights was named in vain.
+    if (recipe.placement != nullptr && !serves_some(*recipe.placement, scene)) {
+        check_part(*recipe.placement, recipe, scene, light, device);
+    }
+
+    // The stages must fit each other before anything is asked of one.
+    if (recipe.map != nullptr && recipe.lookup != nullptr) {
+        if (const std::string sentence = stages_misfit(recipe); !sentence.empty()) {
+            refuse("{}", sentence);
+        }
+        check_part(recipe.placement_for(light.shape), recipe, scene, light, device);
+    }
+    if (const std::string sentence = casters_misfit(recipe, scene); !sentence.empty()) {
+        refuse("{}", sentence);
+    }
+    for (const Part* part : {recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
+        if (part != nullptr) {
+            check_part(*part, recipe, scene, light, device);
+        }
+    }
+}
+
+}  // namespace gn

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/recipe/part.h"
+
+#include <algorithm>
+
+namespace gn {
+
+bool LightKinds::has(uint kind) const {
+    switch (kind) {
+        case GN_LIGHT_DIRECTIONAL: return directional;
+        case GN_LIGHT_SPOT: return spot;
+        case GN_LIGHT_POINT: return point;
+        case GN_LIGHT_RECTANGLE: return rectangle;
+        default: return false;
+    }
+}
+
+std::string LightKinds::names() const {
+    std::string list;
+    const auto add = [&](bool served, std::string_view name) {
+        if (served) {
+            list += list.empty() ? "" : ", ";
+            list += name;
+        }
+    };
+    add(directional, "directional");
+    add(spot, "spot");
+    add(point, "point");
+    add(rectangle, "rectangle");
+    return list.empty() ? "no" : list;
+}
+
+std::string identifier(std::string_view id) {
+    std::string name(id);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+const Part& find_part(Stage stage, std::string_view id) {
+    std::vector<std::string_view> known;
+    for (const Part* part : all_parts()) {
+        if (part->stage != stage) {
+            continue;
+        }
+        if (identifier(part->id) == identifier(id)) {
+            return *part;
+        }
+        known.push_back(part->id);
+    }
+    fail("unknown {} '{}'; {}", stage_names[static_cast<std::size_t>(stage)], id, suggest(id, known));
+}
+
+}  // namespace gn

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A recipe names parts and their parameters: recipes/<name>.toml, with overrides from the command line.
+#pragma once
+
+#include "base/param.h"
+#include "shadow/receiver/bias.h"
+#include "shadow/recipe/part.h"
+
+#include <map>
+
+namespace gn {
+
+struct Recipe {
+    std::string name;       ///< "pcf"
+    std::string overrides;  ///< "resolution=2048,pcf.taps=25", as given; "" when none
+    std::string title, paragraph, citation;
+    const Part* placement =
+        nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
+    const Part* map = nullptr;
+    const Part* lookup = nullptr;
+    const Part* direct = nullptr;      ///< set instead of the three above; all null: no shadows, V = 1
+    const Part* visibility = nullptr;  ///< optional
+    int resolution = 1024;             ///< texels along a side of the map; per view of multi-view placements
+    GnBias bias;
+    /// What maps keep of the casters: the nearest of all, front or back faces; the surface between the two nearest
+    /// (midpoint, dual); object ids beside depth (ids). See shadow/casters/caster_depth.h.
+    std::string casters = "all";
+    std::map<std::string, ParamBlock, std::less<>> params;  ///< by part id, for every part there is
+
+    /// The parameters of a part in this recipe (defaults where nothing was set).
+    template <class Params>
+    [[nodiscard]] Params of(std::string_view part_id) const {
+        const auto found = params.find(part_id);
+        GN_CHECK(found != params.end());
+        return found->second.template as<Params>();
+    }
+    [[nodiscard]] const ParamBlock& block(const Part& part) const;
+    /// The placement for a light: as named where that serves such lights, else cube for point lights and fit for all others.
+    [[nodiscard]] const Part& placement_for(const GnLight& light) const;
+};
+
+/// Valid values of `resolution` and `casters`.
+inline constexpr int min_resolution = 16, max_resolution = 16384;
+inline constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
+
+extern const ParamTable bias_params;  ///< rows of GnBias
+
+/// Reads "pcf,resolution=2048,pcf.taps=25": a name in recipes/ or a path to a .toml, then overrides.
+/// Throws Error naming the file or "-r", the key, and what would be valid.
+Recipe load_recipe(const std::string& name_and_overrides);
+/// Names of the shipped recipes, sorted.
+std::vector<std::string> recipe_names();
+/// Throws Refusal when the recipe cannot serve the light, lacks a device feature, names a placement for none of the scene's
+/// lights, or its stages do not fit.
+void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device);
+
+}  // namespace gn

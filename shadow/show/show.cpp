@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Pictures of the hidden: the stages before the lookup once, then one pass per kind of picture.
+#include "shadow/show/show.h"
+
+#include "shadow/frame/history.h"
+#include "shadow/frame/map_memory.h"
+#include "shadow/placement/place.h"
+#include "shadow/show/show_passes.h"
+#include "shadow/view/read_back.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+constexpr const char* output_text = R"(
+// Texels per pixel, bias in metres, whether the view holds the receiver.
+vec3 sizes_in(GnReceiver receiver, int index) {
+    GnProjected moved = gn_project(receiver, views[index], u.bias);
+    GnProjected still = gn_project(receiver, views[index], u.no_bias);
+    float metres = gn_bias_metres(receiver, views[index], moved, still);
+    return vec3(gn_texels_per_pixel(receiver, moved), metres, moved.inside ? 1.0 : 0.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    vec4 shown = vec4(0.0, -1.0, 0.0, -1.0);
+    vec3 sizes = vec3(0.0, 0.0, -1.0);
+    GnReceiver receiver;
+    if (read_sample(pixel, receiver)) {
+        GnChoice choice = GN_CHOOSE(receiver, placement);
+        sizes = sizes_in(receiver, choice.first);
+        if (choice.second >= 0 && choice.weight > 0.0) {
+            sizes = mix(sizes, sizes_in(receiver, choice.second), choice.weight);
+        }
+        shown = vec4(choice.first, choice.second, choice.second >= 0 ? choice.weight : 0.0, sizes.z);
+    }
+    imageStore(first, pixel, shown);
+    imageStore(second, pixel, vec4(sizes.xy, 0.0, sizes.z));
+}
+)";
+
+/// How much of the view sees the surface's front: 1 face to face, less where it is slanted.
+std::vector<float> shade_of(const CpuSamples& samples) {
+    std::vector<float> shade(samples.position_ws.size(), 0.0F);
+    for (std::size_t i = 0; i < shade.size(); ++i) {
+        if (samples.position_ws[i].w > 0.5F) {
+            const vec3 ray_ws = glm::normalize(vec3(samples.position_ws[i]) - samples.camera.position_ws);
+            shade[i] = 0.55F + 0.45F * std::abs(glm::dot(ray_ws, vec3(samples.normal_ws[i])));
+        }
+    }
+    return shade;
+}
+
+struct Built {
+    ViewSamples samples;
+    LightViews views;
+    ShadowMap map;
+    SampleFigures figures;
+    LayerTiles map_tiles, light_tiles;
+};
+
+bool asked(std::span<const std::string> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
+            std::span<const std::string> names, const HiddenOptions& options) {
+    Built built;
+    graph.group("scene");
+    const SceneHandles handles = import_scene(graph, scene);
+    built.samples = add_view_samples(graph, scene, handles, camera, options.width, options.height);
+    graph.group("shadow");
+    const FrameInput input{graph.device(), graph,   *scene.scene,  handles,
+                           built.samples,  nullptr, options.light, options.history};
+
+    // The stages before the lookup, as in a frame.
+    check_recipe(recipe, input.scene, input.light(), input.device);
+    built.views = place_views(input, recipe);
+    if (asked(names, "map")) {
+        built.map = recipe.map->add_map(input, recipe, built.views);
+        check_map_memory(input, recipe, built.map.texture);
+        built.map_tiles = add_layer_tiles(input, built.map.texture);
+        graph.keep(built.map_tiles.image);
+    }
+    if (asked(names, "light-view")) {
+        built.light_tiles = add_layer_tiles(input, add_light_picture(input, recipe, built.views));
+        graph.keep(built.light_tiles.image);
+    }
+    built.figures = add_sample_figures(input, recipe, built.views);
+    graph.keep(built.figures.choice);
+    graph.keep(built.figures.sizes);
+    graph.keep(built.samples.position);
+    graph.keep(built.samples.normal);
+    return built;
+}
+
+}  // namespace
+
+std::span<const HiddenPicture> hidden_pictures() {
+    static constexpr std::array<HiddenPicture, 5> pictures{{
+        {"view", "Which light view serves a pixel: the cascade or the face, by its index.", true},
+        {"texels", "Map texels along a pixel's side, in the direction that has fewest; below 1 they show as steps.",
+         true},
+        {"bias", "Distance in metres that the bias moves a receiver before it is compared with the map.", true},
+        {"map", "The map's contents: its layers side by side, its channels below each other.", false},
+        {"light-view", "What the light sees through each of its views, lit from the light.", false},
+    }};
+    return pictures;
+}
+
+const HiddenPicture& find_hidden(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const HiddenPicture& picture : hidden_pictures()) {
+        if (picture.name == name) {
+            return picture;
+        }
+        known.push_back(picture.name);
+    }
+    fail("no picture is called '{}'; {}", name, suggest(name, known));
+}
+
+SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    // A bias of nothing follows the recipe's own.
+    const std::array<std::byte, sizeof(GnBias)> no_bias{};
+    const SampleImages images = add_sample_pass(
+        input, recipe, views, {"show", "shown views", "shown sizes", "GnBias no_bias;", output_text}, no_bias);
+    return {images.first, images.second};
+}
+
+std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
+                               std::span<const std::string> names, const HiddenOptions& options) {
+    for (const std::string& name : names) {
+        find_hidden(name);
+    }
+    if (recipe.map == nullptr) {
+        refuse(
+            "recipe '{}' has no shadow map whose inside could be shown; recipes with a map name one in 'gnomon show'",
+            recipe.name);
+    }
+    FrameGraph graph(device);
+    const Built built = build(graph, scene, camera, recipe, names, options);
+    graph.execute(false);
+    if (options.history != nullptr) {
+        options.history->advance();
+    }
+
+    std::vector<Shown> shown;
+    for (const std::string& name : names) {
+        if (name == "view") {
+            const std::vector<float> shade = shade_of(read_samples(graph, built.samples));
+            shown.push_back(color_choice(read_image(graph, built.figures.choice), shade, built.views));
+        } else if (name == "texels") {
+            shown.push_back(color_texels(read_image(graph, built.figures.sizes)));
+        } else if (name == "bias") {
+            shown.push_back(color_bias(read_image(graph, built.figures.sizes)));
+        } else if (name == "map") {
+            shown.push_back(color_map(read_image(graph, built.map_tiles.image), built.map_tiles,
+                                      graph.desc(built.map.texture), recipe.map->gives == "depth"));
+        } else {
+            shown.push_back(color_light(read_image(graph, built.light_tiles.image), built.light_tiles));
+        }
+        shown.back().name = name;
+    }
+    return shown;
+}
+
+}  // namespace gn
