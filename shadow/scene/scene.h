@@ -55,13 +55,14 @@ struct Light {
     std::vector<std::uint32_t> spared;  ///< objects that cast no shadow of it, ascending; set by finish_scene
 };
 
-/// A perspective camera. It looks along forward_ws.
+/// A perspective camera, or an orthographic one, whose rays run side by side. It looks along forward_ws.
 struct Camera {
     std::string name = "main";
     vec3 position_ws{0};
     vec3 forward_ws{0, 0, -1};
     vec3 up_ws{0, 1, 0};
     float yfov = 0.9F;             ///< full vertical angle, radians
+    float half_height = 0;         ///< above 0 orthographic: half of what the picture shows from top to bottom, metres
     float near = 0.1F, far = 500;  ///< metres
     vec2 shift_cs{0};              ///< moves the picture right and down; sub-pixel shifts for smooth edges
 };
