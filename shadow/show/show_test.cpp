@@ -144,6 +144,39 @@ TEST(Show, TexelsOfASingleMapOverAPlaneAreItsShareOfAPixel) {
     }
 }
 
+TEST(Show, PixelsOverAFarPlaneAreEqualHoweverNearTheNearPlane) {
+    // Straight above a plane every pixel covers the same square of it. Rays by points near the eye, known to the rounding of
+    // its coordinates, would be off by 2e-4 of the distance here, 6 mm in a pixel of 36 cm; differences of positions of 30 m
+    // know a pixel to 2e-6 / 0.36 of itself.
+    Scene scene = floor_below(30);
+    scene.cameras[0].near = 0.005F;
+    const Shown texels = show(scene, "pcf,placement=single,resolution=256", {"texels"}, 96, 90).front();
+    const double found = texels.values.at(48, 45, 0);
+    for (const int x : {2, 20, 40, 60, 93}) {
+        for (const int y : {3, 30, 50, 88}) {
+            EXPECT_NEAR(texels.values.at(x, y, 0) / found, 1, 3e-5) << x << ", " << y;
+        }
+    }
+}
+
+TEST(Show, AnOrthographicCamerasPixelsAreEqualAtEveryDistance) {
+    // 6 m from top to bottom over 90 rows; the worse direction is that across the slant.
+    for (const bool slanted : {false, true}) {
+        Scene scene = floor_below(5);
+        Camera& camera = scene.cameras[0];
+        camera.half_height = 3;
+        camera.forward_ws = slanted ? vec3(0, -0.5F, -std::sqrt(0.75F)) : camera.forward_ws;
+        camera.position_ws.z = slanted ? 8.0F : 0.0F;
+        const Shown texels = show(scene, "pcf,placement=single,resolution=256", {"texels"}, 90, 90).front();
+        const double expected = 6.0 / 90 * 256 / 40;
+        const double found = texels.values.at(45, 45, 0);
+        EXPECT_NEAR(found / expected, 1, 0.04) << "the map covers the floor and the kernel's reach";
+        for (const int y : {3, 30, 50, 88}) {
+            EXPECT_NEAR(texels.values.at(20, y, 0) / found, 1, 1e-4) << y;
+        }
+    }
+}
+
 TEST(Show, TexelsAreThoseOfTheWorseDirection) {
     // By hand: a pixel of 0.1 m by 0.3 m under a map with a texel every 0.05 m and every 0.2 m.
     glsl::GnReceiver receiver{};
