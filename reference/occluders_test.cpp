@@ -345,6 +345,88 @@ TEST(Occluders, ALampJustAboveItsFloorFarFromZero) {
               (std::vector<float>{1, 1, 1, 0}));
 }
 
+TEST(Occluders, AWideBlockIsLitToItsRimHoweverHighItsWall) {
+    // As above, up to 10 cm from the edge, with walls on which rounding is larger than the ray is above them at the edge.
+    for (const float wall : {11.0F, 1000.0F, 1e5F}) {
+        for (const float elevation : {0.002F, 0.01F}) {
+            for (const float aside : {0.0F, 0.3F}) {
+                QuadScene quads;
+                quads.add({-1e5F, 2, -5e4F}, {0, 0, 1e5F}, {1e5F, 0, 0});
+                quads.add({0, 2 - wall, -5e4F}, {0, 0, 1e5F}, {0, wall, 0});
+                Samples samples;
+                for (int i = 1; i < 1000; ++i) {
+                    samples.add({-1e-4F * static_cast<float>(i), 2, 37 * static_cast<float>(i)}, {0, 1, 0});
+                }
+                std::size_t counted = 0;
+                EXPECT_EQ(count_dark(Truth(quads.scene)
+                                         .trace(samples.position_ws, samples.normal_ws,
+                                                sun_towards({1, elevation, aside}), {}),
+                                     counted),
+                          0U)
+                    << "wall of " << wall << " m, sun " << elevation << ", aside " << aside;
+                EXPECT_EQ(counted, 999U);
+            }
+        }
+    }
+}
+
+/// A sheet of 2 m, `gap` before a lamp 3 m above the floor, all of it turned and moved; and samples of the floor.
+struct LampBehindSheet {
+    QuadScene quads;
+    Samples samples;
+    GnLight lamp;
+    LampBehindSheet(double gap, double degrees, dvec3 place) {
+        const dmat4 turn = glm::translate(dmat4(1.0), place) *
+                           glm::rotate(dmat4(1.0), glm::radians(degrees), glm::normalize(dvec3(1, 0.2, 0.3)));
+        const auto placed = [&](dvec3 p) { return vec3(turn * dvec4(p, 1.0)); };
+        const auto turned = [&](dvec3 d) { return vec3(turn * dvec4(d, 0.0)); };
+        for (const auto& [height, side] : {std::pair{0.0, 40.0}, {3 - gap, 2.0}}) {
+            quads.add({}, {}, {});
+            for (std::size_t i = 0; const dvec2 uv : {dvec2(0, 0), dvec2(0, 1), dvec2(1, 1), dvec2(1, 0)}) {
+                quads.scene.positions_ws[quads.scene.positions_ws.size() - 4 + i++] =
+                    placed({side * (uv.x - 0.5), height, side * (uv.y - 0.5)});
+            }
+        }
+        for (int i = 0; i < 200; ++i) {
+            const double angle = 2.4 * i;
+            samples.add(placed({0.03 * i * std::cos(angle), 0, 0.03 * i * std::sin(angle)}), turned({0, 1, 0}));
+        }
+        lamp.kind = GN_LIGHT_RECTANGLE;
+        lamp.position_ws = vec4(placed({0, 3, 0}), 1);
+        lamp.direction_ws = vec4(turned({0, -1, 0}), 0);
+        lamp.right_ws = vec4(turned({1, 0, 0}), 0);
+        lamp.up_ws = vec4(turned({0, 0, 1}), 0);
+    }
+    [[nodiscard]] std::size_t dark() const {
+        std::size_t counted = 0;
+        const std::size_t found = count_dark(
+            Truth(quads.scene).trace(samples.position_ws, samples.normal_ws, lamp, {.samples = 16}), counted);
+        EXPECT_EQ(counted, samples.position_ws.size());
+        return found;
+    }
+};
+
+TEST(Occluders, ASheetAHairBeforeALampHidesIt) {
+    // Four units of the coordinates along the gap are 1.4 micrometres of 3 m, where floats are 0.24 apart.
+    EXPECT_EQ(LampBehindSheet(8 * 0x1p-22, 0, {0, 0, 0}).dark(), 200U);
+    EXPECT_EQ(LampBehindSheet(8e-6, 25, {0, 0, 0}).dark(), 200U);
+    EXPECT_EQ(LampBehindSheet(4e-3, 25, {3000, -40, 2000}).dark(), 200U);
+}
+
+TEST(Occluders, APanelInTheLampsOwnPlaneDoesNotHideIt) {
+    for (const float half : {0.0F, 0.5F}) {
+        for (const double degrees : {0.0, 25.0, 70.0}) {
+            for (const dvec3 place : {dvec3(0), dvec3(30, 5, -11), dvec3(3000, -40, 2000)}) {
+                for (const double gap : {0.0, -1e-3}) {
+                    LampBehindSheet scene(gap, degrees, place);
+                    scene.lamp.half_size = vec2(half);
+                    EXPECT_EQ(scene.dark(), 0U) << half << " " << degrees << " " << place.x << " " << gap;
+                }
+            }
+        }
+    }
+}
+
 /// A sheet at 1 m with a texture of 2 x 1 texels, opaque at u = 0.25 and clear at u = 0.75.
 QuadScene sheet(AlphaMode mode, float cutoff, float base_alpha, bool repeat) {
     QuadScene quads;
