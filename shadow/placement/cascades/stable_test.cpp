@@ -269,6 +269,34 @@ TEST(CascadesRendered, KeptMapsAreRedrawnWhereVerticesMoved) {
     }
 }
 
+/// What casts is told by the scene, not by its buffers: an object, a material or a lamp's bulb may change between frames.
+TEST(CascadesRendered, KeptMapsAreRedrawnWhereSomethingCastsOtherwise) {
+    const std::vector<std::function<void(Scene&)>> changes{
+        [](Scene& scene) { scene.objects.back().casts = false; },
+        [](Scene& scene) { scene.lights[0].spared = {static_cast<std::uint32_t>(scene.objects.size() - 1)}; },
+        [](Scene& scene) { scene.materials[static_cast<std::size_t>(scene.objects.back().material)].casts = false; },
+        [](Scene& scene) {
+            Material& material = scene.materials[static_cast<std::size_t>(scene.objects.back().material)];
+            material.alpha_mode = AlphaMode::mask;
+            material.base_color.a = 0.25F;
+        }};
+    for (const char* kept_by : {"scroll=1", "rate=8"}) {
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            Scene scene = with_hard_sun("contact");
+            SceneGpu gpu = upload_scene(test::device(), scene);
+            const std::string recipe = fmt::format("hard,resolution=256,placement=cascades,cascades.{}", kept_by);
+            const Camera& camera = scene.camera("");
+            History kept(test::device());
+            const Rendered before = render(gpu, camera, camera, recipe, &kept);
+            changes[i](scene);
+            const Rendered after = render(gpu, camera, camera, recipe, &kept);
+            History empty(test::device());
+            EXPECT_EQ(differing(after.map, render(gpu, camera, camera, recipe, &empty).map), 0U) << kept_by << " " << i;
+            EXPECT_GT(differing(after.map, before.map), 0U) << kept_by << " " << i;
+        }
+    }
+}
+
 TEST(CascadesRendered, FarCascadesAreRedrawnAtTheirRateAndStillCoverTheirSlices) {
     const Scene scene = load_scene("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
