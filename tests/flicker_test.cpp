@@ -56,8 +56,12 @@ Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::s
     const auto view_of = [](const CpuSamples& samples) {
         const Camera& camera = samples.camera;
         const mat4 cs_from_ws = cs_from_vs(camera, static_cast<float>(width) / height) * vs_from_ws(camera);
-        return PathView{
-            width, height, cs_from_ws, 2 * std::tan(camera.yfov / 2) / height, samples.normal_ws, samples.position_ws};
+        return PathView{width,
+                        height,
+                        cs_from_ws,
+                        static_cast<float>(2 * half_height_at(camera, 1) / height),
+                        samples.normal_ws,
+                        samples.position_ws};
     };
     for (const Camera& camera : cameras) {
         FrameResult frame = render_frame(

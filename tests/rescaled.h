@@ -34,6 +34,7 @@ inline Scene rescaled(Scene scene, float scale) {
     }
     for (Camera& camera : scene.cameras) {
         camera.position_ws *= scale;
+        camera.half_height *= scale;
         camera.near *= scale;
         camera.far *= scale;
     }

@@ -72,7 +72,7 @@ void add_scene(Hasher& hasher, const Scene& scene) {
 void add_camera(Hasher& hasher, const Camera& camera) {
     hasher.text(camera.name).bytes(&camera.position_ws, sizeof camera.position_ws);
     hasher.bytes(&camera.forward_ws, sizeof camera.forward_ws).bytes(&camera.up_ws, sizeof camera.up_ws);
-    hasher.value(camera.yfov).value(camera.near).value(camera.far);
+    hasher.value(camera.yfov).value(camera.half_height).value(camera.near).value(camera.far);
 }
 
 void add_recipe(Hasher& hasher, const Recipe& recipe) {

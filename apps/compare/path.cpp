@@ -4,8 +4,6 @@
 #include "shadow/frame/history.h"
 #include "shadow/metrics/flicker.h"
 
-#include <cmath>
-
 namespace gn {
 namespace {
 
@@ -19,7 +17,7 @@ struct PathFrame {
         return {static_cast<int>(samples.width),
                 static_cast<int>(samples.height),
                 cs_from_vs(camera, aspect) * vs_from_ws(camera),
-                2 * std::tan(camera.yfov / 2) / static_cast<float>(samples.height),
+                static_cast<float>(2 * half_height_at(camera, 1) / samples.height),
                 samples.normal_ws,
                 samples.position_ws};
     }

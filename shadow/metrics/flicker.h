@@ -27,7 +27,7 @@ inline constexpr float flicker_alike = 0.99F;
 struct PathView {
     int width = 0, height = 0;
     mat4 cs_from_ws{1};                 ///< of the camera; rows of pixels run with y in clip space
-    float pixel_size = 0;               ///< side of a pixel at one metre along the view axis, metres
+    float pixel_size = 0;               ///< side of a pixel where a point's w in clip space is 1, metres
     std::span<const vec4> normal_ws;    ///< geometric, xyz
     std::span<const vec4> position_ws;  ///< per pixel; w = 1 where a surface is seen
 };

@@ -22,6 +22,20 @@ const Camera& Scene::camera(std::string_view view_name) const {
     fail("scene '{}' has no view '{}'; its views are: {}", name, view_name, known.empty() ? "none" : known);
 }
 
+vec4 eye_of(const Camera& camera) {
+    return is_orthographic(camera) ? vec4(-camera.forward_ws, 0.0F) : vec4(camera.position_ws, 1.0F);
+}
+
+vec3 to_eye(const Camera& camera, vec3 p_ws) {
+    const vec4 eye_ws = eye_of(camera);
+    return glm::normalize(vec3(eye_ws) - p_ws * eye_ws.w);
+}
+
+double half_height_at(const Camera& camera, double distance) {
+    return is_orthographic(camera) ? static_cast<double>(camera.half_height)
+                                   : distance * std::tan(0.5 * static_cast<double>(camera.yfov));
+}
+
 mat4 vs_from_ws(const Camera& camera) {
     // Turn first, then move: a direction added to a far position would be rounded away.
     mat4 m = glm::lookAtRH(vec3(0.0F), camera.forward_ws, camera.up_ws);
@@ -31,12 +45,17 @@ mat4 vs_from_ws(const Camera& camera) {
 
 mat4 cs_from_vs(const Camera& camera, float aspect) {
     // In double and rounded once: with d = -z, z_cs / w is 1 at d = near and 0 at d = far.
-    const double scale = 1.0 / std::tan(0.5 * static_cast<double>(camera.yfov));
+    const double scale = 1.0 / half_height_at(camera, 1.0);
     const double near = camera.near;
     const double far = camera.far;
     mat4 m(0.0F);
     m[0][0] = static_cast<float>(scale / static_cast<double>(aspect));
     m[1][1] = static_cast<float>(-scale);
+    if (is_orthographic(camera)) {
+        m[2][2] = static_cast<float>(1.0 / (far - near));
+        m[3] = vec4(camera.shift_cs, static_cast<float>(far / (far - near)), 1.0F);
+        return m;
+    }
     m[2][2] = static_cast<float>(near / (far - near));
     m[2][3] = -1.0F;
     m[2][0] = -camera.shift_cs.x;
@@ -47,7 +66,7 @@ mat4 cs_from_vs(const Camera& camera, float aspect) {
 
 namespace {
 
-/// What of the scene lies in a camera's square picture, along its axis.
+/// What of the scene lies in a camera's picture, along its axis.
 struct Seen {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t beyond = 0;  ///< triangles that lie wholly beyond the far plane
@@ -71,17 +90,21 @@ std::vector<dvec3> cut(const std::vector<dvec3>& polygon, dvec4 plane) {
     return kept;
 }
 
-Seen look(const Scene& scene, const Camera& camera) {
-    // In the camera's own space, scaled so that the picture's sides are the planes |x| = |y| = -z.
+Seen look(const Scene& scene, const Camera& camera, float aspect) {
+    // In the camera's own space, z along its axis, scaled so that the picture's sides are the planes |x| = |y| = z, or, under
+    // an orthographic camera, |x| = |y| = 1.
     const dvec3 back = -dvec3(camera.forward_ws);
     const dvec3 right = glm::normalize(glm::cross(dvec3(camera.up_ws), back));
     const dvec3 up = glm::cross(back, right);
-    const double scale = 1.0 / std::tan(0.5 * static_cast<double>(camera.yfov));
+    const double scale = 1.0 / half_height_at(camera, 1.0);
     const auto seen_from = [&](vec3 p_ws) {
         const dvec3 p = dvec3(p_ws) - dvec3(camera.position_ws);
-        return dvec3(scale * glm::dot(right, p), scale * glm::dot(up, p), -glm::dot(back, p));
+        return dvec3(scale / static_cast<double>(aspect) * glm::dot(right, p), scale * glm::dot(up, p),
+                     -glm::dot(back, p));
     };
-    static constexpr std::array<dvec4, 4> sides{{{1, 0, 1, 0}, {-1, 0, 1, 0}, {0, 1, 1, 0}, {0, -1, 1, 0}}};
+    const double z = is_orthographic(camera) ? 0.0 : 1.0;
+    const std::array<dvec4, 5> sides{
+        {{1, 0, z, 1 - z}, {-1, 0, z, 1 - z}, {0, 1, z, 1 - z}, {0, -1, z, 1 - z}, {0, 0, 1, 0}}};
     Seen seen;
     for (const uvec3 t : scene.triangles) {
         // Most triangles lie beyond one side as a whole.
@@ -110,7 +133,9 @@ Seen look(const Scene& scene, const Camera& camera) {
 
 // Depth range for everything in `bounds` as seen by the camera. What stands nearer than a near plane that suits the whole
 // would be cut off: then half the way to it serves, down to 2^-20 of the far plane; reversed depth in floats bears it.
-void choose_range(Camera& camera, const Scene& scene, const Box& bounds, bool near_given, bool far_given) {
+// An orthographic camera's depth is linear, and no near plane costs it any: there the least serves.
+void choose_range(Camera& camera, const Scene& scene, const Box& bounds, float aspect, bool near_given,
+                  bool far_given) {
     float farthest = 0.0F;
     for (const vec3 corner : bounds.corners()) {
         farthest = std::max(farthest, glm::distance(corner, camera.position_ws));
@@ -120,17 +145,19 @@ void choose_range(Camera& camera, const Scene& scene, const Box& bounds, bool ne
     if (!far_given) {
         camera.far = farthest > 0.0F ? 1.05F * farthest : 1.0F;
     }
-    if (!near_given) {
+    if (!near_given && is_orthographic(camera)) {
+        camera.near = 0x1p-20F * camera.far;
+    } else if (!near_given) {
         camera.near = std::max(0.5F * std::min(distance, camera.far), 1e-4F * camera.far);
-        const double seen = look(scene, camera).nearest;
+        const double seen = look(scene, camera, aspect).nearest;
         if (0.5 * seen < static_cast<double>(camera.near)) {
             camera.near = std::max(static_cast<float>(0.5 * seen), 0x1p-20F * camera.far);
         }
     }
 }
 
-void note_cut(Scene& scene, const Camera& camera) {
-    if (const std::size_t beyond = look(scene, camera).beyond; beyond > 0) {
+void note_cut(Scene& scene, const Camera& camera, float aspect) {
+    if (const std::size_t beyond = look(scene, camera, aspect).beyond; beyond > 0) {
         add_note(scene.notes,
                  fmt::format("Camera '{}' sees to {:.4g} m and leaves out {} triangle{} in its view beyond.",
                              camera.name, camera.far, beyond, beyond == 1 ? "" : "s"));
@@ -155,7 +182,25 @@ Camera frame_box(const Box& box, float aspect) {
     return camera;
 }
 
-void repair_camera(Camera& camera, const Scene& scene, const Box& bounds, std::vector<std::string>& notes) {
+// Lens: an angle between 0.1 and 175 degrees, or the height of a picture by parallel rays, at most 1e9 m to each side.
+void repair_lens(Camera& camera, std::vector<std::string>& notes) {
+    if (!(camera.yfov > 0.0017F && camera.yfov < 3.06F)) {
+        camera.yfov = Camera{}.yfov;
+        if (!is_orthographic(camera)) {
+            add_note(notes, fmt::format("Camera '{}' had no usable field of view and has {:.2f} rad.", camera.name,
+                                        camera.yfov));
+        }
+    }
+    if (!std::isfinite(camera.half_height) || camera.half_height > 1e9F || camera.half_height < 0.0F) {
+        camera.half_height = 0.0F;
+        add_note(notes,
+                 fmt::format("Camera '{}' had no usable height of an orthographic picture and is a perspective one.",
+                             camera.name));
+    }
+}
+
+void repair_camera(Camera& camera, const Scene& scene, const Box& bounds, float aspect,
+                   std::vector<std::string>& notes) {
     // Pose.
     if (!finite(camera.position_ws) || glm::any(glm::greaterThan(glm::abs(camera.position_ws), vec3(1e9F)))) {
         camera.position_ws = vec3(0.0F);
@@ -172,18 +217,14 @@ void repair_camera(Camera& camera, const Scene& scene, const Box& bounds, std::v
         camera.up_ws = std::abs(camera.forward_ws.y) < 0.9F ? vec3(0, 1, 0) : vec3(0, 0, -1);
     }
 
-    // Lens: an angle between 0.1 and 175 degrees, 0 < near < far.
-    if (!(camera.yfov > 0.0017F && camera.yfov < 3.06F)) {
-        camera.yfov = Camera{}.yfov;
-        add_note(notes,
-                 fmt::format("Camera '{}' had no usable field of view and has {:.2f} rad.", camera.name, camera.yfov));
-    }
+    // 0 < near < far.
+    repair_lens(camera, notes);
     const bool near_given = std::isfinite(camera.near) && camera.near > 0.0F;
     const bool far_given = std::isfinite(camera.far) && camera.far > (near_given ? camera.near : 0.0F);
     if (!near_given || !far_given) {
         // Zero means that the file left the choice to us; anything else was a mistake.
         const bool mistake = (!near_given && camera.near != 0.0F) || (!far_given && camera.far != 0.0F);
-        choose_range(camera, scene, bounds, near_given, far_given);
+        choose_range(camera, scene, bounds, aspect, near_given, far_given);
         camera.near = std::min(camera.near, 0.5F * camera.far);
         if (mistake) {
             add_note(notes, fmt::format("Camera '{}' had no usable depth range and sees from {:.4g} to {:.4g} m.",
@@ -225,11 +266,11 @@ void complete_cameras(Scene& scene, float aspect) {
         bounds.grow(vec3(0.5F));
     }
     for (Camera& camera : scene.cameras) {
-        repair_camera(camera, scene, bounds, scene.notes);
+        repair_camera(camera, scene, bounds, aspect, scene.notes);
     }
     for (CameraPath& path : scene.paths) {
         for (Camera& frame : path.frames) {
-            repair_camera(frame, scene, bounds, scene.notes);
+            repair_camera(frame, scene, bounds, aspect, scene.notes);
         }
     }
     // The whole from outside: the default view of a bare model, one more view, `overview`, of any other.
@@ -240,10 +281,10 @@ void complete_cameras(Scene& scene, float aspect) {
     if (bare || (!taken && !scene.closed_form && !scene.bounds_ws.empty())) {
         scene.cameras.push_back(frame_box(scene.bounds_ws.empty() ? bounds : main_bounds(scene), aspect));
         scene.cameras.back().name = bare ? "main" : "overview";
-        choose_range(scene.cameras.back(), scene, bounds, false, false);
+        choose_range(scene.cameras.back(), scene, bounds, aspect, false, false);
     }
     for (const Camera& camera : scene.cameras) {
-        note_cut(scene, camera);
+        note_cut(scene, camera, aspect);
     }
 }
 

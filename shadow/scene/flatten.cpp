@@ -197,6 +197,7 @@ void move_camera(PlacedCamera& placed, const dmat4& ws_from_model) {
     placed.camera.forward_ws = turn_axis(linear, placed.camera.forward_ws);
     placed.camera.up_ws = turn_axis(linear, placed.camera.up_ws);
     const auto scale = static_cast<float>(std::cbrt(std::abs(glm::determinant(linear))));
+    placed.camera.half_height *= scale;
     placed.camera.near *= scale;
     placed.camera.far *= scale;
 }

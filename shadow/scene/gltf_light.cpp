@@ -124,8 +124,11 @@ std::optional<PlacedCamera> load_camera(File& file, const tinygltf::Node& node, 
     }
     const tinygltf::Camera& data = at(file.data.cameras, node.camera, file, "camera");
     const std::string name = clean_text(!node.name.empty() ? node.name : data.name);
-    if (data.type != "perspective") {
-        add_note(file.notes, fmt::format("Camera '{}' is not a perspective one and was skipped.", name));
+    const bool orthographic = data.type == "orthographic";
+    if (!orthographic && data.type != "perspective") {
+        add_note(file.notes,
+                 fmt::format("Camera '{}' of type '{}' was skipped; types are perspective and orthographic.", name,
+                             clean_text(data.type)));
         return std::nullopt;
     }
 
@@ -135,6 +138,14 @@ std::optional<PlacedCamera> load_camera(File& file, const tinygltf::Node& node, 
     placed.camera.name = name.empty() ? "main" : name;
     placed.camera.forward_ws = vec3(axis_of(ws_from_node, 2, -1.0));
     placed.camera.up_ws = vec3(axis_of(ws_from_node, 1, 1.0));
+    if (orthographic) {
+        // The picture's own shape decides what lies to the sides. Zero is a usable near plane here.
+        const tinygltf::OrthographicCamera& lens = data.orthographic;
+        placed.camera.half_height = lens.ymag > 0.0 ? narrow(lens.ymag) : -1.0F;
+        placed.camera.near = lens.znear >= 0.0 ? narrow(lens.znear) : -1.0F;
+        placed.camera.far = lens.zfar > 0.0 ? narrow(lens.zfar) : -1.0F;
+        return placed;
+    }
     placed.camera.yfov = narrow(data.perspective.yfov);
     placed.camera.near = data.perspective.znear > 0.0 ? narrow(data.perspective.znear) : -1.0F;
     placed.camera.far = narrow(data.perspective.zfar);

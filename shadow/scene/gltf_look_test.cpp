@@ -84,18 +84,19 @@ TEST(GltfCamera, PerspectiveCamerasAndTheirRepair) {
         {"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":5}},
         {"type":"perspective","perspective":{"yfov":0,"znear":0,"zfar":-1}}],)";
     const Scene scene = load(gltf);
-    ASSERT_EQ(scene.cameras.size(), 3U);  // and overview
+    ASSERT_EQ(scene.cameras.size(), 4U);  // and overview
     const Camera& eye = scene.camera("eye");
     EXPECT_EQ(eye.position_ws, vec3(0, 1, 4));
     EXPECT_EQ(eye.forward_ws, vec3(0, 0, -1));
     EXPECT_FLOAT_EQ(eye.yfov, 0.7F);
     EXPECT_FLOAT_EQ(eye.near, 0.1F);
     EXPECT_FLOAT_EQ(eye.far, 50.0F);
-    const Camera& broken = scene.cameras[1];
+    EXPECT_EQ(scene.cameras[1].half_height, 1.0F);
+    const Camera& broken = scene.cameras[2];
     EXPECT_GT(broken.yfov, 0.1F);
     EXPECT_GT(broken.near, 0.0F);
     EXPECT_GT(broken.far, broken.near);
-    EXPECT_TRUE(has_note(scene, "not a perspective one"));
+    EXPECT_FALSE(has_note(scene, "was skipped"));
 }
 
 // A 2 x 1 PNG: a green texel with alpha 0, a red one with alpha 1.

@@ -130,6 +130,15 @@ const std::vector<BuiltinScene>& builtin_scenes();
 /// Makes a built-in scene. Throws Error listing the known names.
 Scene make_builtin_scene(const std::string& name_and_parameters);
 
+inline bool is_orthographic(const Camera& camera) {
+    return camera.half_height > 0.0F;
+}
+/// Where rays of sight end: w = 1, the eye; w = 0, the direction towards it, the same everywhere (orthographic).
+vec4 eye_of(const Camera& camera);
+/// Unit direction from p_ws to the eye.
+vec3 to_eye(const Camera& camera, vec3 p_ws);
+/// Half of what the picture shows from top to bottom, so many metres along the axis.
+double half_height_at(const Camera& camera, double distance);
 /// The camera as matrices: Vulkan clip space with reversed depth (near 1, far 0).
 mat4 vs_from_ws(const Camera& camera);
 mat4 cs_from_vs(const Camera& camera, float aspect);

@@ -180,6 +180,11 @@ PlacedCamera read_camera(const TomlTable& table, const PlacedCamera& before) {
         table.wrong("yfov_deg", "between 0.1 and 175");
     }
     placed.camera.yfov = static_cast<float>(glm::radians(degrees));
+    if (table.has("half_height") && table.has("yfov_deg")) {
+        table.wrong("yfov_deg", "absent where half_height is given: an orthographic camera has no angle");
+    }
+    placed.camera.half_height =
+        static_cast<float>(not_negative(table, "half_height", static_cast<double>(before.camera.half_height)));
     placed.camera.near = static_cast<float>(not_negative(table, "near", static_cast<double>(before.camera.near)));
     placed.camera.far = static_cast<float>(not_negative(table, "far", static_cast<double>(before.camera.far)));
     return placed;
@@ -194,8 +199,8 @@ PlacedCamera unset_camera(std::string name) {
 }
 
 void add_camera(const TomlTable& table, Model& model) {
-    static constexpr std::array<std::string_view, 8> keys{"name", "position", "look_at", "direction",
-                                                          "up",   "yfov_deg", "near",    "far"};
+    static constexpr std::array<std::string_view, 9> keys{"name",     "position",    "look_at", "direction", "up",
+                                                          "yfov_deg", "half_height", "near",    "far"};
     table.check_keys(keys);
     const std::string otherwise = model.cameras.empty() ? "main" : fmt::format("view {}", model.cameras.size() + 1);
     model.cameras.push_back(read_camera(table, unset_camera(clean_text(table.text("name", otherwise)))));
@@ -216,6 +221,7 @@ PlacedCamera between(const PlacedCamera& a, const PlacedCamera& b, double t) {
     }
     frame.camera.up_ws = glm::mix(a.camera.up_ws, b.camera.up_ws, s);
     frame.camera.yfov = glm::mix(a.camera.yfov, b.camera.yfov, s);
+    frame.camera.half_height = glm::mix(a.camera.half_height, b.camera.half_height, s);
     frame.camera.near = glm::mix(a.camera.near, b.camera.near, s);
     frame.camera.far = glm::mix(a.camera.far, b.camera.far, s);
     return frame;
@@ -224,8 +230,8 @@ PlacedCamera between(const PlacedCamera& a, const PlacedCamera& b, double t) {
 // Keyframes become frames: key i stands at frame `frame` (in order), the frames between are interpolated.
 void add_path(const TomlTable& table, Model& model) {
     static constexpr std::array<std::string_view, 2> path_keys{"name", "key"};
-    static constexpr std::array<std::string_view, 8> frame_keys{"frame", "position", "look_at", "direction",
-                                                                "up",    "yfov_deg", "near",    "far"};
+    static constexpr std::array<std::string_view, 9> frame_keys{"frame",    "position",    "look_at", "direction", "up",
+                                                                "yfov_deg", "half_height", "near",    "far"};
     table.check_keys(path_keys);
     PlacedPath path{clean_text(table.text("name", fmt::format("path {}", model.paths.size() + 1))), {}};
     PlacedCamera before = unset_camera(path.name);
@@ -237,6 +243,9 @@ void add_path(const TomlTable& table, Model& model) {
         if (frame != std::floor(frame) || frame > most_frames || (path.frames.empty() ? frame != 0.0 : frame < first)) {
             key.wrong("frame",
                       fmt::format("a whole number, 0 for the first key and then growing, at most {}", most_frames));
+        }
+        if (!path.frames.empty() && is_orthographic(camera.camera) != is_orthographic(before.camera)) {
+            key.wrong("half_height", "above 0 in all keys of a path or in none");
         }
         const double span = frame - first + 1.0;
         for (double i = 1.0; i < span; i += 1.0) {
