@@ -50,9 +50,12 @@ struct SceneHandles {
 /// The camera's constants for shaders (shadow/view/view.glsl has the same struct).
 struct GnViewConstants {
     mat4 cs_from_ws{1};  ///< reversed depth: near 1, far 0
-    mat4 ws_from_cs{1};
-    vec4 eye_ws{0};  ///< xyz
-    uvec4 size{0};   ///< width, height, 0, 0
+    vec4 eye_ws{0};      ///< w = 1: the eye; w = 0: the direction towards it, the same everywhere (orthographic)
+    vec4 axis_ws{0};     ///< dot(axis_ws, (p_ws, 1)): metres along the camera's axis
+    vec4 right_ws{
+        0};           ///< the width of a pixel, to the right: at one metre along the axis, or everywhere (orthographic)
+    vec4 down_ws{0};  ///< likewise its height, downwards
+    uvec4 size{0};    ///< width, height, 0, 0
 };
 
 /// One G-buffer: what each pixel of the view sees. Where no surface is seen, position.w = 0.

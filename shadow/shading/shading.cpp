@@ -61,7 +61,7 @@ void main() {
 #ifdef GN_VISIBILITY
     v = texelFetch(visibility, pixel, 0).r;
 #endif
-    vec3 to_eye = normalize(u.view.eye_ws.xyz - position.xyz);
+    vec3 to_eye = normalize(gn_ray_to_eye(u.view, position.xyz));
     vec3 to_light = gn_to_light(u.light, position.xyz);
     vec2 surface = texelFetch(gbuffer_material, pixel, 0).xy;
     vec3 reflected = gn_reflect(texelFetch(gbuffer_shading_normal, pixel, 0).xyz, to_eye, to_light,

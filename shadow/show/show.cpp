@@ -50,8 +50,8 @@ std::vector<float> shade_of(const CpuSamples& samples) {
     std::vector<float> shade(samples.position_ws.size(), 0.0F);
     for (std::size_t i = 0; i < shade.size(); ++i) {
         if (samples.position_ws[i].w > 0.5F) {
-            const vec3 ray_ws = glm::normalize(vec3(samples.position_ws[i]) - samples.camera.position_ws);
-            shade[i] = 0.55F + 0.45F * std::abs(glm::dot(ray_ws, vec3(samples.normal_ws[i])));
+            const vec3 to_eye_ws = to_eye(samples.camera, vec3(samples.position_ws[i]));
+            shade[i] = 0.55F + 0.45F * std::abs(glm::dot(to_eye_ws, vec3(samples.normal_ws[i])));
         }
     }
     return shade;

@@ -67,7 +67,7 @@ void main() {
     vec3 edge1 = positions[indices[corner + 2u]] - a_ws;
     vec3 n_ws = cross(edge0, edge1);
     float area = length(n_ws);
-    vec3 to_eye = u.view.eye_ws.xyz - in_position_ws;
+    vec3 to_eye = gn_ray_to_eye(u.view, in_position_ws);
     n_ws = area > 0.0 ? n_ws / area : normalize(to_eye);
     vec3 p_ws = in_position_ws - n_ws * dot(n_ws, in_position_ws - a_ws);
     n_ws = dot(n_ws, to_eye) < 0.0 ? -n_ws : n_ws;
@@ -75,9 +75,8 @@ void main() {
     // Orient the shading normal likewise; where the mesh has none, the geometric one serves.
     vec3 shading_ws = dot(in_normal_ws, in_normal_ws) > 0.25 ? normalize(in_normal_ws) : n_ws;
     shading_ws = dot(shading_ws, n_ws) < 0.0 ? -shading_ws : shading_ws;
-    vec4 p_cs = u.view.cs_from_ws * vec4(p_ws, 1.0);
     out_position = vec4(p_ws, push.surface);
-    out_normal = vec4(n_ws, p_cs.w);
+    out_normal = vec4(n_ws, dot(u.view.axis_ws, vec4(p_ws, 1.0)));
     out_shading_normal = vec4(shading_ws, 0.0);
     out_albedo = vec4(base_color.rgb, 1.0);
     out_material = vec4(push.roughness, push.metallic, float(push.object_id & 255u) / 255.0,
@@ -125,11 +124,14 @@ RasterDesc gbuffer_pipeline(const Faces& faces) {
 }
 
 GnViewConstants view_constants(const Camera& camera, uint width, uint height) {
-    const mat4 cs_from_ws =
-        cs_from_vs(camera, static_cast<float>(width) / static_cast<float>(height)) * vs_from_ws(camera);
-    return {.cs_from_ws = cs_from_ws,
-            .ws_from_cs = mat4(glm::inverse(glm::dmat4(cs_from_ws))),
-            .eye_ws = vec4(camera.position_ws, 1),
+    const mat4 from_ws = vs_from_ws(camera);
+    const mat4 rows = glm::transpose(from_ws);
+    const double pixel = 2 * half_height_at(camera, 1) / height;
+    return {.cs_from_ws = cs_from_vs(camera, static_cast<float>(width) / static_cast<float>(height)) * from_ws,
+            .eye_ws = eye_of(camera),
+            .axis_ws = -rows[2],
+            .right_ws = vec4(pixel * dvec3(rows[0]), 0),
+            .down_ws = vec4(-pixel * dvec3(rows[1]), 0),
             .size = uvec4(width, height, 0, 0)};
 }
 

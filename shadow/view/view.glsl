@@ -7,16 +7,27 @@
 
 struct GnViewConstants {
     mat4 cs_from_ws;
-    mat4 ws_from_cs;
     vec4 eye_ws;
+    vec4 axis_ws;
+    vec4 right_ws;
+    vec4 down_ws;
     uvec4 size;
 };
 
-// A step of one pixel along the receiver's plane: the plane cut with the neighbouring pixel's ray.
-vec3 gn_plane_step(vec3 p_ws, vec3 n_ws, vec3 eye_ws, vec3 neighbour_ray_ws) {
-    float towards_plane = dot(n_ws, neighbour_ray_ws);
-    float t = dot(n_ws, p_ws - eye_ws) / (abs(towards_plane) > 1.0e-6 ? towards_plane : 1.0e-6);
-    return eye_ws + t * neighbour_ray_ws - p_ws;
+// From a point towards the eye, not of unit length.
+vec3 gn_ray_to_eye(GnViewConstants view, vec3 p_ws) { return view.eye_ws.xyz - p_ws * view.eye_ws.w; }
+
+// By how much pixels are larger at a distance along the axis than right_ws and down_ws: an orthographic camera sees
+// everything at one size.
+float gn_pixel_growth(GnViewConstants view, float distance) { return view.eye_ws.w > 0.5 ? distance : 1.0; }
+
+// A step of one pixel along the receiver's plane: across the view to the neighbour's ray, and on it to the plane. Only
+// differences of positions are taken, never points near the eye, which are known to the rounding of its coordinates alone.
+vec3 gn_plane_step(GnViewConstants view, vec3 p_ws, vec3 n_ws, vec3 across_ws) {
+    vec3 ray_ws = across_ws * view.eye_ws.w - gn_ray_to_eye(view, p_ws);
+    float towards_plane = dot(n_ws, ray_ws);
+    float least = 1.0e-6 * length(ray_ws);
+    return across_ws - ray_ws * (dot(n_ws, across_ws) / (abs(towards_plane) > least ? towards_plane : least));
 }
 
 // The receiver of a pixel from its two G-buffer texels.
@@ -26,12 +37,10 @@ GnReceiver gn_receiver(GnViewConstants view, ivec2 pixel, vec4 position, vec4 no
     receiver.n_ws = normal.xyz;
     receiver.view_depth = normal.w;
     receiver.p_ss = vec2(pixel) + 0.5;
-    vec2 size = vec2(view.size.xy);
-    vec4 right = view.ws_from_cs * vec4((receiver.p_ss + vec2(1, 0)) / size * 2.0 - 1.0, 0.5, 1.0);
-    vec4 below = view.ws_from_cs * vec4((receiver.p_ss + vec2(0, 1)) / size * 2.0 - 1.0, 0.5, 1.0);
-    receiver.ddx_ws = gn_plane_step(receiver.p_ws, receiver.n_ws, view.eye_ws.xyz, right.xyz / right.w - view.eye_ws.xyz);
-    receiver.ddy_ws = gn_plane_step(receiver.p_ws, receiver.n_ws, view.eye_ws.xyz, below.xyz / below.w - view.eye_ws.xyz);
-    receiver.to_camera_ws = normalize(view.eye_ws.xyz - receiver.p_ws);
+    float growth = gn_pixel_growth(view, normal.w);
+    receiver.ddx_ws = gn_plane_step(view, receiver.p_ws, receiver.n_ws, growth * view.right_ws.xyz);
+    receiver.ddy_ws = gn_plane_step(view, receiver.p_ws, receiver.n_ws, growth * view.down_ws.xyz);
+    receiver.to_camera_ws = normalize(gn_ray_to_eye(view, receiver.p_ws));
     receiver.object = -1;
     return receiver;
 }

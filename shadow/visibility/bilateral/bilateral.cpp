@@ -34,12 +34,8 @@ void main() {
         imageStore(filtered, pixel, vec4(0.0));
         return;
     }
-    // The width of a pixel, across the view ray.
-    vec4 centre = u.view.ws_from_cs * vec4((vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0, 0.5, 1.0);
-    vec4 beside = u.view.ws_from_cs * vec4((vec2(pixel) + vec2(1.5, 0.5)) / vec2(size) * 2.0 - 1.0, 0.5, 1.0);
-    vec3 centre_ray = centre.xyz / centre.w - u.view.eye_ws.xyz;
-    float share = length(beside.xyz / beside.w - centre.xyz / centre.w) / length(centre_ray);
-    float pixel_ws = share * distance(position.xyz, u.view.eye_ws.xyz);
+    // The width of a pixel at the sample.
+    float pixel_ws = gn_pixel_growth(u.view, normal.w) * length(u.view.right_ws.xyz);
 
     // Average what counts for the light, by closeness on screen and in space.
     float sum = texelFetch(noisy, pixel, 0).r;
