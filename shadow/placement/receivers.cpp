@@ -93,29 +93,34 @@ ConvexBody body_of(const Box& box_ws) {
 
 ConvexBody body_of(const Camera& camera, float aspect, double near, double far) {
     const CameraFrame frame = frame_of(camera);
-    const double tangent = std::tan(0.5 * static_cast<double>(camera.yfov));
     std::array<dvec3, 8> corners{};
     for (unsigned i = 0; i < 8; ++i) {
         const double distance = (i & 4U) != 0U ? far : near;
-        const double x = ((i & 1U) != 0U ? 1.0 : -1.0) * tangent * static_cast<double>(aspect);
-        const double y = ((i & 2U) != 0U ? 1.0 : -1.0) * tangent;
-        corners[i] = frame.eye + distance * (frame.forward + x * frame.right + y * frame.up);
+        const double half_height = half_height_at(camera, distance);
+        const double x = ((i & 1U) != 0U ? half_height : -half_height) * static_cast<double>(aspect);
+        const double y = (i & 2U) != 0U ? half_height : -half_height;
+        corners[i] = frame.eye + distance * frame.forward + x * frame.right + y * frame.up;
     }
     return box_like(corners);
 }
 
 std::vector<Plane> frustum_planes(const Camera& camera, float aspect, double near, double far) {
     const CameraFrame frame = frame_of(camera);
-    const double ty = std::tan(0.5 * static_cast<double>(camera.yfov));
-    const double tx = ty * static_cast<double>(aspect);
-    const auto through_eye = [&](dvec3 normal) { return Plane{normal, -glm::dot(normal, frame.eye)}; };
+    const double y = half_height_at(camera, 1);
+    const double x = y * static_cast<double>(aspect);
     const double along = glm::dot(frame.forward, frame.eye);
+    // Perspective planes pass through the eye, those of an orthographic camera beside it.
+    const auto side = [&](dvec3 inwards, double half) {
+        const bool parallel = is_orthographic(camera);
+        const dvec3 normal = parallel ? inwards : half * frame.forward + inwards;
+        return Plane{normal, (parallel ? half : 0.0) - glm::dot(normal, frame.eye)};
+    };
     return {{frame.forward, -along - near},
             {-frame.forward, along + far},
-            through_eye(tx * frame.forward + frame.right),
-            through_eye(tx * frame.forward - frame.right),
-            through_eye(ty * frame.forward + frame.up),
-            through_eye(ty * frame.forward - frame.up)};
+            side(frame.right, x),
+            side(-frame.right, x),
+            side(frame.up, y),
+            side(-frame.up, y)};
 }
 
 ConvexBody clip(const ConvexBody& body, const Plane& plane) {

@@ -72,13 +72,14 @@ GnLightView sine_view(const Plane2& plane, double eta);
 /// whatever stands before the camera takes the whole map; a ratio of depths of two hundred to one is what one map can serve.
 inline constexpr double usual_near = 0.005;
 
-/// The plane of a body of receivers under its fitted view, or nothing where there is no direction or depth to warp along.
+/// The plane of a body of receivers under its fitted view, or nothing where there is no direction or depth to warp along,
+/// or the camera is orthographic.
 /// `pseudo_near` as a share of the farthest receiver's depth: nearer ones are in the map but do not steer the warp.
 std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
                                const Recipe& recipe, double pseudo_near);
 
 /// The views of a part: `choose` gets the plane and returns the warped view. Where there is nothing to warp (the view
-/// looks along the light, no depth, receivers around the light) the views are `fit`'s.
+/// looks along the light, no depth, an orthographic camera, receivers around the light) the views are `fit`'s.
 using Choose = GnLightView (*)(const Plane2& plane, const Recipe& recipe);
 LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_near, Choose choose);
 

@@ -21,7 +21,7 @@ View view_of_camera(const FrameInput& input) {
     view.forward = glm::normalize(dvec3(camera.forward_ws));
     view.right = glm::normalize(glm::cross(view.forward, dvec3(camera.up_ws)));
     view.up = glm::cross(view.right, view.forward);
-    view.tangent_y = std::tan(0.5 * static_cast<double>(camera.yfov));
+    view.tangent_y = half_height_at(camera, 1);
     view.tangent_x = view.tangent_y * input.samples.width / input.samples.height;
     return view;
 }
@@ -95,6 +95,10 @@ void set_angles(Plane2& plane, const View& view, dvec3 ray) {
 
 std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
                                const Recipe& recipe, double pseudo_near) {
+    // The warp answers pixels that grow with the distance; an orthographic camera's do not, and n is infinite.
+    if (is_orthographic(input.samples.camera)) {
+        return std::nullopt;
+    }
     const View view = view_of_camera(input);
     Plane2 plane = unturned(fitted);
     const bool positional = fitted.eye_ws.w > 0.5F;

@@ -44,15 +44,35 @@ GN_FN int gn_volumes_multiplicity(int side, int form) {
     return form == GN_VOLUMES_BACK && side < 0 ? -1 : 0;
 }
 
+// The way that light takes at a point.
+GN_FN vec3 gn_volumes_away(vec3 p_ws, vec4 light_ws) {
+    return p_ws * light_ws.w - vec3(light_ws);
+}
+
+// How much farther than the caster volumes reach from a point light where they end.
+const float gn_volumes_growth = 1048576.0f;
+
 // Where the light pushes a point to: infinitely far away, a direction with w = 0. [EK02] section 3.2
-GN_FN vec4 gn_volumes_extrude(vec3 p_ws, vec4 light_ws) {
-    return vec4(p_ws * light_ws.w - vec3(light_ws), 0.0f);
+// Departs from it: an orthographic camera shows no such point, and one that looks along the light would see no side of a
+// volume and nowhere its end. There volumes end beyond all that is seen, a sun's after `reach` metres.
+GN_FN vec4 gn_volumes_extrude(vec3 p_ws, vec4 light_ws, float reach) {
+    vec3 away_ws = gn_volumes_away(p_ws, light_ws);
+    if (reach <= 0.0f) {
+        return vec4(away_ws, 0.0f);
+    }
+    return light_ws.w > 0.0f ? vec4(away_ws + vec3(light_ws) / gn_volumes_growth, 1.0f / gn_volumes_growth)
+                             : vec4(p_ws + away_ws * reach, 1.0f);
+}
+
+// Whether volumes have a cap at their far end: those of a sun meet in one point at infinity.
+GN_FN bool gn_volumes_has_far_cap(GnVolumesFrame frame) {
+    return frame.light_ws.w > 0.0f || frame.reach > 0.0f;
 }
 
 // The far end of the strip of a side that lies at its edge: pushed away by what 64 pixels span there, so that even seen
 // at a slant the strip is wider than the rasterizer's grid.
 GN_FN vec4 gn_volumes_strip(GnVolumesFrame frame, vec3 p_ws, vec3 away_ws) {
-    float reach = 64.0f * frame.eye_ws.w * length(p_ws - vec3(frame.eye_ws));
+    float reach = 64.0f * frame.pixel * (frame.eye_ws.w > 0.0f ? length(p_ws - vec3(frame.eye_ws)) : 1.0f);
     float size = length(away_ws);
     return vec4(size > 0.0f ? p_ws + away_ws * (reach / size) : p_ws, 1.0f);
 }
@@ -64,9 +84,9 @@ GN_FN bool gn_volumes_touches(GnVolumesFrame frame, vec3 p_ws, vec3 n_ws, vec3 a
     float t = dot(from_a, along) / dot(along, along);
     vec3 off = from_a - along * (t < 0.0f ? 0.0f : (t > 1.0f ? 1.0f : t));
     // A step of `snap` pixels across the view, and the longer one that it is on a surface seen at a slant.
-    vec3 to_eye = vec3(frame.eye_ws) - p_ws;
+    vec3 to_eye = vec3(frame.eye_ws) - p_ws * frame.eye_ws.w;
     float distance2 = dot(to_eye, to_eye), slant = abs(dot(n_ws, to_eye));
-    float reach = frame.snap * frame.eye_ws.w * distance2;
+    float reach = frame.snap * frame.pixel * distance2;
     // The edge lies in the surface's plane, but for the rounding of coordinates.
     float rounding = 5.0e-7f * (abs(p_ws.x) + abs(p_ws.y) + abs(p_ws.z));
     float height = abs(dot(n_ws, off)) - rounding;

@@ -24,12 +24,14 @@ struct GnVolumesParams {
 // What every pass of one light knows.
 struct GnVolumesFrame {
     mat4 cs_from_ws;
-    vec4 eye_ws;    ///< xyz; w: metres that a pixel spans at a distance of 1 m
+    vec4 eye_ws;    ///< w = 1: the eye; w = 0: the direction towards it (orthographic)
     vec4 light_ws;  ///< w = 1: a point; w = 0: the direction towards it
     uint triangles;
     uint edges;
     uint opaque_triangles;  ///< slots of the list of caps that opaque triangles have; masked ones follow
     float snap;             ///< pixels by which the rasterizer may move an edge
+    float pixel;            ///< metres that a pixel spans at a distance of 1 m, or everywhere (orthographic)
+    float reach;            ///< metres that a sun's volumes are long; 0: without end, for any light
 };
 
 #endif

@@ -32,9 +32,9 @@ void main() {
     bool second = corner == 2u || corner >= 4u;
     bool far = corner == 1u || corner == 2u || corner == 4u;
     vec3 p_ws = second != turned ? b_ws : a_ws;
-    vec4 far_ws = gn_volumes_extrude(p_ws, u.frame.light_ws);
+    vec4 far_ws = gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach);
     if (STRIP != 0) {
-        far_ws = gn_volumes_strip(u.frame, p_ws, far_ws.xyz);
+        far_ws = gn_volumes_strip(u.frame, p_ws, gn_volumes_away(p_ws, u.frame.light_ws));
     }
     gl_Position = u.frame.cs_from_ws * (far ? far_ws : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
@@ -77,7 +77,7 @@ layout(binding = 5, scalar) readonly buffer Owners { uint owners[]; };
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
-    uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
+    uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
     uint slot = uint(gl_VertexIndex) / corners;
     uint corner = uint(gl_VertexIndex) % corners;
     uint first = MASKED != 0 ? u.frame.opaque_triangles : 0u;
@@ -86,13 +86,13 @@ void main() {
     // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
     bool far = corner >= 3u;
     vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
-    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws) : vec4(p_ws, 1.0));
+    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach) : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
     // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
     // every opaque cap does.
     if (MASKED != 0 && (owners[t] & 6u) == 2u &&
         gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]], positions[indices[3u * t + 2u]],
-                        vec4(u.frame.eye_ws.xyz, 1.0)) > 0) {
+                        u.frame.eye_ws) > 0) {
         gl_Position.z = 0.0;
     }
 }

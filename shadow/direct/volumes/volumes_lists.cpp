@@ -54,7 +54,7 @@ void main() {
     uint first = compared ? u.frame.opaque_triangles : 0u;
     uint end = compared ? u.frame.triangles : u.frame.opaque_triangles;
     uint command = 1u + (compared ? 2u : 0u) + (m < 0 ? 1u : 0u);
-    uint corners = u.frame.light_ws.w > 0.0 ? 6u : 3u;
+    uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
     uint slot = atomicAdd(draws[4u * command], corners) / corners;
     caps[m > 0 ? first + slot : end - 1u - slot] = t;
 }
@@ -130,7 +130,12 @@ float snap_pixels(Device& device) {
 }
 
 float pixel_metres(const ViewSamples& samples) {
-    return 2.0F * std::tan(0.5F * samples.camera.yfov) / static_cast<float>(samples.height);
+    return static_cast<float>(2 * half_height_at(samples.camera, 1) / samples.height);
+}
+
+// Samples lie on the scene's surfaces, as casters do: no two are farther apart than its diagonal.
+float reach_of_volumes(const FrameInput& input) {
+    return is_orthographic(input.samples.camera) ? 1.01F * input.scene.bounds_ws.diagonal() : 0.0F;
 }
 
 EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vector<CasterKind>& kinds,
@@ -197,12 +202,14 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
-                     .eye_ws = vec4(input.samples.camera.position_ws, pixel_metres(input.samples)),
+                     .eye_ws = eye_of(input.samples.camera),
                      .light_ws = light_ws,
                      .triangles = static_cast<uint>(input.scene.triangles.size()),
                      .edges = static_cast<uint>(scene.list->edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
-                     .snap = snap_pixels(input.device)};
+                     .snap = snap_pixels(input.device),
+                     .pixel = pixel_metres(input.samples),
+                     .reach = reach_of_volumes(input)};
 
     // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.
     const VkDeviceSize triangles = buffers.frame.triangles;

@@ -59,6 +59,8 @@ struct Sphere {
     double radius = 0;
 };
 Sphere sphere_around(Interval slice, double yfov, double aspect);
+/// The same under any camera.
+Sphere sphere_around(Interval slice, const Camera& camera, double aspect);
 
 /// The texel grid of one stable cascade: an endless plane of texels fixed to the world, of which a map is a window.
 /// Axes and texel size depend on the light, the optics and the scene's bounds, never on where the camera is.

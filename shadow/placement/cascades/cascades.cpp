@@ -21,6 +21,15 @@ bool by_samples(const GnCascadesParams& params) {
     return params.split >= GN_SPLIT_SDSM_MINMAX;
 }
 
+/// Logarithms answer pixels that grow with the distance. An orthographic camera's do not: even lengths are even errors.
+GnCascadesParams params_of(const FrameInput& input, const Recipe& recipe) {
+    auto params = recipe.of<GnCascadesParams>("cascades");
+    if (is_orthographic(input.samples.camera) && !by_samples(params)) {
+        params.split = GN_SPLIT_UNIFORM;
+    }
+    return params;
+}
+
 /// Passes cost nothing on a CPU, where a layered one draws every caster into every layer; GPUs prefer one pass.
 bool layered(const Device& device, const GnCascadesParams& params) {
     const bool wanted = params.passes == GN_PASSES_LAYERED || (params.passes == GN_PASSES_AUTO && !device.info().cpu);
@@ -90,7 +99,7 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
     const Box scene_ws = seen_bounds(input);
     std::vector<Window> windows;
     for (const Interval& slice : slices) {
-        const Sphere sphere = sphere_around(slice, static_cast<double>(camera.yfov), aspect);
+        const Sphere sphere = sphere_around(slice, camera, aspect);
         const Grid grid = grid_of(sphere, input.light().shape, scene_ws, recipe.resolution, guard_of(recipe), spare);
         const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
         windows.push_back({grid, centre});
@@ -100,7 +109,7 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
 }
 
 LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
-    const auto params = recipe.of<GnCascadesParams>("cascades");
+    const GnCascadesParams params = params_of(input, recipe);
     if (by_samples(params)) {
         LightViews views = place_by_samples(input, recipe, params);
         views.layered = layered(input.device, params);

@@ -34,6 +34,7 @@ GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     u.y_ws = axis(frame.y);
     u.z_ws = axis(frame.z);
     u.eye_ws = vec4(camera.position_ws, 1);
+    u.even = is_orthographic(camera) ? 1 : 0;
     u.size = uvec2(input.samples.width, input.samples.height);
     u.near = camera.near;
     u.far = camera.far;

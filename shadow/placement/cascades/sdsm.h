@@ -18,6 +18,7 @@ struct GnSdsmConstants {
     vec4 y_ws GN_DEFAULT(vec4(0));
     vec4 z_ws GN_DEFAULT(vec4(0));
     vec4 eye_ws GN_DEFAULT(vec4(0));
+    int even GN_DEFAULT(0);           ///< 1: pixels are of one size at every distance (orthographic)
     uvec2 size GN_DEFAULT(uvec2(0));  ///< of the view, pixels
     float near GN_DEFAULT(0.0f);      ///< of the camera: the histogram's range
     float far GN_DEFAULT(0.0f);

@@ -19,7 +19,7 @@ void main() {
         }
         nearest = max(nearest, ~ordered(distance));
         farthest = max(farthest, ordered(distance));
-        float t = log(distance / u.near) / log(u.far / u.near);
+        float t = step_of(u.near, u.far, distance);
         int at = clamp(int(t * GN_SDSM_BINS), 0, GN_SDSM_BINS - 1);
         if (at != bin && run > 0u) {
             atomicAdd(r.bins[bin], run);

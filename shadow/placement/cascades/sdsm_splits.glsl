@@ -7,7 +7,9 @@ layout(local_size_x = 1) in;
 const int COARSE = 64;  // bins that a slice can end at
 const float NEVER = 1.0e30;
 
-float edge(int bin) { return gn_cascades_log(u.near, u.far, float(bin) / float(COARSE)); }
+float edge(int bin) { return distance_at(u.near, u.far, float(bin) / float(COARSE)); }
+// What the texels of a slice between two bins are in proportion to: its end, or its length where the view does not widen.
+float size_of(int first, int end, float far) { return min(edge(end), far) - (u.even != 0 ? edge(first) : 0.0); }
 
 void main() {
     bool none = r.farthest == 0u;
@@ -15,7 +17,7 @@ void main() {
     float far = none ? 2.0 : unordered(r.farthest) * (1.0 + 1.0e-5);
     int count = u.params.count;
     for (int i = 0; i <= count; ++i) {
-        r.ends[i] = i == 0 ? near : i == count ? far : gn_cascades_log(near, far, float(i) / float(count));
+        r.ends[i] = i == 0 ? near : i == count ? far : distance_at(near, far, float(i) / float(count));
     }
     if (none || u.params.split != GN_SPLIT_SDSM_HISTOGRAM) {
         return;
@@ -33,7 +35,7 @@ void main() {
     float best[COARSE + 1];
     int starts[GN_CASCADES_MOST * (COARSE + 1)];
     for (int b = 0; b <= COARSE; ++b) {
-        best[b] = min(edge(b), far) * sums[b];
+        best[b] = size_of(0, b, far) * sums[b];
         starts[b] = 0;
     }
     for (int i = 1; i < count; ++i) {
@@ -41,7 +43,7 @@ void main() {
             float least = NEVER;
             int start = 0;
             for (int a = 0; a <= b; ++a) {
-                float cost = best[a] + min(edge(b), far) * (sums[b] - sums[a]);
+                float cost = best[a] + size_of(a, b, far) * (sums[b] - sums[a]);
                 if (cost < least) {
                     least = cost;
                     start = a;

@@ -14,7 +14,7 @@ namespace {
 
 /// Square of the distance from the axis to the frustum's corners, per distance along it.
 double corner_slope(const Camera& camera, double aspect) {
-    const double tangent = std::tan(0.5 * static_cast<double>(camera.yfov));
+    const double tangent = half_height_at(camera, 1);
     return tangent * tangent * (1 + aspect * aspect);
 }
 
@@ -43,9 +43,12 @@ SceneWindow scene_window(const GnLight& light, const Box& scene_ws) {
 /// changes only when the camera has moved far.
 double first_distance(const Camera& camera, double aspect, const Box& box_ws) {
     const dvec3 eye(camera.position_ws);
-    const dvec3 nearest = glm::clamp(eye, dvec3(box_ws.min), dvec3(box_ws.max));
     const double diagonal = static_cast<double>(box_ws.diagonal());
-    const double least = glm::length(nearest - eye) / std::sqrt(1 + corner_slope(camera, aspect));
+    const dvec3 nearest = glm::clamp(eye, dvec3(box_ws.min), dvec3(box_ws.max));
+    const double least =
+        is_orthographic(camera)
+            ? extent_of(body_of(box_ws), dvec3(camera.forward_ws)).near - glm::dot(dvec3(camera.forward_ws), eye)
+            : glm::length(nearest - eye) / std::sqrt(1 + corner_slope(camera, aspect));
     return least > 1e-6 * diagonal ? diagonal * std::exp2(std::floor(std::log2(least / diagonal))) : 0.0;
 }
 
@@ -64,7 +67,7 @@ Interval stable_range(const FrameInput& input, const GnCascadesParams& params, I
         reach *= 2;
     }
     range.far = std::min(range.far, reach);
-    if (params.distance > 0) {
+    if (params.distance > 0 || is_orthographic(camera)) {
         return range;
     }
 
@@ -83,6 +86,15 @@ Sphere sphere_around(Interval slice, double yfov, double aspect) {
     sphere.centre = std::min(slice.far, 0.5 * (slice.near + slice.far) * (1 + k));
     sphere.radius = std::sqrt((slice.far - sphere.centre) * (slice.far - sphere.centre) + slice.far * slice.far * k);
     return sphere;
+}
+
+Sphere sphere_around(Interval slice, const Camera& camera, double aspect) {
+    if (!is_orthographic(camera)) {
+        return sphere_around(slice, static_cast<double>(camera.yfov), aspect);
+    }
+    // Around a box as wide everywhere.
+    const double across = half_height_at(camera, 1) * std::sqrt(1 + aspect * aspect);
+    return {0.5 * (slice.near + slice.far), std::hypot(0.5 * (slice.far - slice.near), across)};
 }
 
 Grid grid_of(const Sphere& sphere, const GnLight& light, const Box& scene_ws, int resolution, Guard guard,

@@ -20,7 +20,12 @@ constexpr int faces = 6;
 /// The camera's plane at distance 1; bodies seen by the camera lie before it.
 struct Screen {
     dvec3 eye, right, down, forward;
+    bool orthographic = false;
     double area = 1;
+    [[nodiscard]] dvec2 project(dvec3 p) const {
+        const dvec3 d = p - eye;
+        return dvec2(glm::dot(d, right), glm::dot(d, down)) / (orthographic ? 1.0 : glm::dot(d, forward));
+    }
 };
 
 Screen screen_of(const FrameInput& input) {
@@ -30,8 +35,9 @@ Screen screen_of(const FrameInput& input) {
     screen.forward = glm::normalize(dvec3(camera.forward_ws));
     screen.right = glm::normalize(glm::cross(screen.forward, dvec3(camera.up_ws)));
     screen.down = glm::cross(screen.forward, screen.right);
-    const double tangent = std::tan(0.5 * static_cast<double>(camera.yfov));
-    screen.area = 4 * tangent * tangent * input.samples.width / input.samples.height;
+    screen.orthographic = is_orthographic(camera);
+    const double half_height = half_height_at(camera, 1);
+    screen.area = 4 * half_height * half_height * input.samples.width / input.samples.height;
     return screen;
 }
 
@@ -42,12 +48,8 @@ double coverage(const ConvexBody& body, const Screen& screen) {
     for (const auto& face : body.faces_ws) {
         double twice = 0;
         for (std::size_t i = 0; i < face.size(); ++i) {
-            const auto project = [&](dvec3 p) {
-                const dvec3 d = p - screen.eye;
-                return dvec2(glm::dot(d, screen.right), glm::dot(d, screen.down)) / glm::dot(d, screen.forward);
-            };
-            const dvec2 a = project(face[i]);
-            const dvec2 b = project(face[(i + 1) % face.size()]);
+            const dvec2 a = screen.project(face[i]);
+            const dvec2 b = screen.project(face[(i + 1) % face.size()]);
             twice += a.x * b.y - a.y * b.x;
         }
         area += 0.5 * std::abs(twice);
