@@ -4,8 +4,10 @@
 // Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
 // Departs from it: the kept texture wraps around instead of being shifted, so that nothing is copied and every texel of
 // the grid is always rasterized at the same place, to the same bits.
+#include "gpu/hash.h"
 #include "shadow/frame/history.h"
 #include "shadow/placement/cascades/cascade_views.h"
+#include "shadow/scene/casting.h"
 
 #include <algorithm>
 
@@ -22,7 +24,19 @@ struct Kept {
 struct KeptState {
     std::vector<Kept> cascades;
     std::uint64_t version = 0;  ///< of the geometry that was drawn
+    Fingerprint casting;        ///< of what the scene told of it
 };
+
+/// What casts, and how, that is told by the scene and not by its buffers.
+Fingerprint casting_of(const Scene& scene, const Light& light) {
+    Hasher hasher;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Material& material = scene.materials[static_cast<std::size_t>(scene.objects[i].material)];
+        hasher.value(casts(scene, i, &light)).value(material.double_sided).value(material.alpha_mode);
+        hasher.value(material.alpha_cutoff).value(material.base_color.a).value(material.base_color_texture);
+    }
+    return hasher.finish();
+}
 
 /// A rectangle of grid texels, end exclusive.
 struct Texels {
@@ -94,8 +108,9 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
     kept.name = fmt::format("light {} {} {} {} {}", input.light_index, recipe.name, recipe.overrides,
                             recipe.map != nullptr ? recipe.map->id : "", recipe.casters);
     auto& state = input.history->value<KeptState>("cascades of " + kept.name);
-    if (state.version != input.handles.version || state.cascades.size() != windows.size()) {
-        state = {std::vector<Kept>(windows.size()), input.handles.version};
+    const Fingerprint casting = casting_of(input.scene, input.light());
+    if (state.version != input.handles.version || state.casting != casting || state.cascades.size() != windows.size()) {
+        state = {std::vector<Kept>(windows.size()), input.handles.version, casting};
     }
     for (std::size_t i = 0; i < windows.size(); ++i) {
         const Grid& grid = windows[i].grid;
