@@ -55,6 +55,7 @@ struct Occluders::Query {
     const Occluders* self;
     const Blockers* blockers;
     const Seat* seat;
+    const float* distance;  ///< to the light, by the ray's id
 };
 
 struct Occluders::SeatQuery {
@@ -125,16 +126,48 @@ void Occluders::copy_geometry() {
     rtcReleaseGeometry(geometry);
 }
 
-bool Occluders::holds(std::uint32_t triangle, dvec3 p_ws) const {
+std::array<dvec3, 3> Occluders::corners(std::uint32_t triangle) const {
     const uvec3 t = scene_.triangles[triangle];
-    const dvec3 a(scene_.positions_ws[t.x]);
-    const dvec3 b(scene_.positions_ws[t.y]);
-    const dvec3 c(scene_.positions_ws[t.z]);
-    const dvec3 normal = glm::cross(b - a, c - a);
+    return {dvec3(scene_.positions_ws[t.x]), dvec3(scene_.positions_ws[t.y]), dvec3(scene_.positions_ws[t.z])};
+}
+
+namespace {
+
+/// The largest coordinates of a point and a triangle, by axis.
+dvec3 magnitude_of(dvec3 p, const std::array<dvec3, 3>& t) {
+    return glm::max(glm::max(glm::abs(p), glm::abs(t[0])), glm::max(glm::abs(t[1]), glm::abs(t[2])));
+}
+
+/// Of unit length, or null.
+dvec3 normal_of(const std::array<dvec3, 3>& t) {
+    const dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double length = glm::length(normal);
-    const dvec3 magnitude = glm::max(glm::max(glm::abs(p_ws), glm::abs(a)), glm::max(glm::abs(b), glm::abs(c)));
-    return !(length > 0.0) ||
-           std::abs(glm::dot(normal / length, p_ws - a)) <= ulps_along(plane_ulps, normal / length, magnitude);
+    return length > 0.0 ? normal / length : dvec3(0.0);
+}
+
+}  // namespace
+
+bool Occluders::holds(std::uint32_t triangle, dvec3 p_ws) const {
+    const auto t = corners(triangle);
+    const dvec3 normal = normal_of(t);
+    return normal == dvec3(0.0) ||
+           std::abs(glm::dot(normal, p_ws - t[0])) <= ulps_along(plane_ulps, normal, magnitude_of(p_ws, t));
+}
+
+bool Occluders::below(std::uint32_t triangle, const Seat& seat) const {
+    const auto t = corners(triangle);
+    const double most = ulps_along(plane_ulps, seat.n_ws, magnitude_of(seat.p_ws, t));
+    return std::all_of(t.begin(), t.end(),
+                       [&](const dvec3& corner) { return glm::dot(seat.n_ws, corner - seat.p_ws) <= most; });
+}
+
+bool Occluders::beyond(std::uint32_t triangle, dvec3 origin_ws, dvec3 light_ws) const {
+    const auto t = corners(triangle);
+    const dvec3 normal = normal_of(t);
+    const double start = glm::dot(normal, origin_ws - t[0]);
+    const double end = glm::dot(normal, light_ws - t[0]);
+    const dvec3 magnitude = glm::max(magnitude_of(light_ws, t), glm::abs(light_ws - origin_ws));
+    return std::abs(end) <= ulps_along(end_ulps, normal, magnitude) || (start > 0.0) == (end > 0.0);
 }
 
 bool Occluders::transparent(std::uint32_t triangle, float u, float v) const {
@@ -184,9 +217,18 @@ void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
         const dvec3 towards_light(RTCRayN_dir_x(arguments->ray, arguments->N, i),
                                   RTCRayN_dir_y(arguments->ray, arguments->N, i),
                                   RTCRayN_dir_z(arguments->ray, arguments->N, i));
+        const dvec3 origin_ws(RTCRayN_org_x(arguments->ray, arguments->N, i),
+                              RTCRayN_org_y(arguments->ray, arguments->N, i),
+                              RTCRayN_org_z(arguments->ray, arguments->N, i));
+        // Near the light's end the side of the triangle's plane decides.
+        const double distance = static_cast<double>(query.distance[RTCRayN_id(arguments->ray, arguments->N, i)]);
+        const double at = static_cast<double>(RTCRayN_tfar(arguments->ray, arguments->N, i));
+        const bool near_end = at > distance - ulps_at(hit_ulps, distance + largest(origin_ws));
+        const bool rises = glm::dot(query.seat->n_ws, towards_light) > 0.0;
         if (triangle == query.seat->triangle || (*query.blockers)[query.self->object_[triangle]] == 0 ||
             query.self->seen_from_behind(triangle, towards_light) || query.self->transparent(triangle, u, v) ||
-            query.self->holds(triangle, query.seat->p_ws)) {
+            query.self->holds(triangle, query.seat->p_ws) || (rises && query.self->below(triangle, *query.seat)) ||
+            (near_end && query.self->beyond(triangle, origin_ws, origin_ws + distance * towards_light))) {
             arguments->valid[i] = 0;
         }
     }
@@ -250,29 +292,32 @@ Seat Occluders::seat(dvec3 p_ws, dvec3 n_ws) const {
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(bvh_, &query.context, &ray);
 
-    const dvec3 seated = std::isfinite(query.nearest) ? p_ws + query.nearest * n_ws : p_ws;
-    return {seated, vec3(seated + ulps_along(origin_ulps, n_ws, glm::abs(seated)) * n_ws), query.triangle};
+    const bool found = std::isfinite(query.nearest);
+    const dvec3 seated = found ? p_ws + query.nearest * n_ws : p_ws;
+    const dvec3 normal = found ? normal_of(corners(query.triangle)) : dvec3(0.0);
+    return {seated, vec3(seated + ulps_along(origin_ulps, n_ws, glm::abs(seated)) * n_ws), query.triangle,
+            glm::dot(normal, n_ws) < 0.0 ? -normal : normal};
 }
 
 template <int Width>
-void Occluders::trace(const Seat& seat, const Blockers& blockers, const int* valid, RTCRayNt<Width>& rays) const {
-    Query query{{}, this, &blockers, &seat};
+void Occluders::trace(const Seat& seat, const Blockers& blockers, const int* valid, Packet<Width>& packet) const {
+    Query query{{}, this, &blockers, &seat, packet.distance.data()};
     rtcInitIntersectContext(&query.context);
     query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if constexpr (Width == 16) {
-        rtcOccluded16(valid, bvh_, &query.context, reinterpret_cast<RTCRay16*>(&rays));
+        rtcOccluded16(valid, bvh_, &query.context, reinterpret_cast<RTCRay16*>(&packet.rays));
     } else if constexpr (Width == 8) {
-        rtcOccluded8(valid, bvh_, &query.context, reinterpret_cast<RTCRay8*>(&rays));
+        rtcOccluded8(valid, bvh_, &query.context, reinterpret_cast<RTCRay8*>(&packet.rays));
     } else if constexpr (Width == 4) {
-        rtcOccluded4(valid, bvh_, &query.context, reinterpret_cast<RTCRay4*>(&rays));
+        rtcOccluded4(valid, bvh_, &query.context, reinterpret_cast<RTCRay4*>(&packet.rays));
     } else {
-        rtcOccluded1(bvh_, &query.context, reinterpret_cast<RTCRay*>(&rays));
+        rtcOccluded1(bvh_, &query.context, reinterpret_cast<RTCRay*>(&packet.rays));
     }
 }
 
-template void Occluders::trace<1>(const Seat&, const Blockers&, const int*, RTCRayNt<1>&) const;
-template void Occluders::trace<4>(const Seat&, const Blockers&, const int*, RTCRayNt<4>&) const;
-template void Occluders::trace<8>(const Seat&, const Blockers&, const int*, RTCRayNt<8>&) const;
-template void Occluders::trace<16>(const Seat&, const Blockers&, const int*, RTCRayNt<16>&) const;
+template void Occluders::trace<1>(const Seat&, const Blockers&, const int*, Packet<1>&) const;
+template void Occluders::trace<4>(const Seat&, const Blockers&, const int*, Packet<4>&) const;
+template void Occluders::trace<8>(const Seat&, const Blockers&, const int*, Packet<8>&) const;
+template void Occluders::trace<16>(const Seat&, const Blockers&, const int*, Packet<16>&) const;
 
 }  // namespace gn

@@ -10,14 +10,24 @@
 // exact and a slab a millimetre above it is a caster, while a turned one is known to units of its coordinates. The limit is
 // that of p and of the triangle that is hit; nothing else in the scene matters.
 //
+// Nor does a ray that rises from p's plane ever meet what lies wholly on or below it: the wall that hangs down from the edge of
+// a wide block, which the ray passes above by less than the wall's rounding. Such hits are rejected likewise, by their corners'
+// heights above p's plane.
+//
 // What is left are triangles that meet p's plane at an angle, near the edge. There the origin must not sink under p's
 // plane, so it is raised along the geometric normal by origin_ulps such units: rounding it moves it by half a unit an axis.
+//
+// The light's end. A ray is traced a little beyond the light, and a hit near its end is asked in double precision on which side
+// of the triangle's plane the light lies: a triangle blocks where the segment from p to the light crosses its plane. The light
+// is known to end_ulps units: half of one by its own rounding, half by the plane's, three by the float direction and distance
+// that lead to it.
 #pragma once
 
 #include "shadow/scene/scene.h"
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,8 +37,11 @@ inline constexpr double plane_ulps = 1.5;
 inline constexpr double origin_ulps = 4;
 /// How far a view sample may be from its surface, for seating: interpolated positions err by units of the vertices.
 inline constexpr double seat_ulps = 64;
-/// How far before a light's surface its rays end, in units of the largest of distance and coordinates.
-inline constexpr double light_ulps = 64;
+/// How exactly the end of a ray at a light is known, of its coordinates and of its distance.
+inline constexpr double end_ulps = 4;
+/// How far beyond a light its rays are traced, and how near to it hits are asked for their side: as much as the ray tracer's
+/// distances may be off, in units of the largest of distance and coordinates.
+inline constexpr double hit_ulps = 64;
 
 /// One unit of float precision at a magnitude.
 inline double ulps_at(double count, double magnitude) {
@@ -49,6 +62,14 @@ struct Seat {
     dvec3 p_ws;                                        ///< on the plane of its triangle
     vec3 origin_ws;                                    ///< a hair above it
     std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;  ///< its triangle, which never hides it; invalid: none was found
+    dvec3 n_ws{0};                                     ///< unit normal of its triangle, above it; null: none was found
+};
+
+/// Rays that are traced together, from one seat.
+template <int Width>
+struct alignas(64) Packet {
+    RTCRayNt<Width> rays;                 ///< each traced to a little beyond the light
+    std::array<float, Width> distance{};  ///< to the light
 };
 
 /// Which objects block: one byte an object, 1 where it does.
@@ -71,7 +92,7 @@ class Occluders {
     [[nodiscard]] Blockers no_blockers() const { return Blockers(scene_.objects.size(), 0); }
     /// Traces a packet from one seat; afterwards tfar < 0 where something blocks. Width is 1, 4, 8 or 16.
     template <int Width>
-    void trace(const Seat& seat, const Blockers& blockers, const int* valid, RTCRayNt<Width>& rays) const;
+    void trace(const Seat& seat, const Blockers& blockers, const int* valid, Packet<Width>& packet) const;
 
   private:
     struct Query;
@@ -79,7 +100,10 @@ class Occluders {
     struct Alpha;
 
     void copy_geometry();
+    [[nodiscard]] std::array<dvec3, 3> corners(std::uint32_t triangle) const;
     [[nodiscard]] bool holds(std::uint32_t triangle, dvec3 p_ws) const;
+    [[nodiscard]] bool below(std::uint32_t triangle, const Seat& seat) const;
+    [[nodiscard]] bool beyond(std::uint32_t triangle, dvec3 origin_ws, dvec3 light_ws) const;
     [[nodiscard]] bool transparent(std::uint32_t triangle, float u, float v) const;
     [[nodiscard]] bool seen_from_behind(std::uint32_t triangle, dvec3 towards_light) const;
     static void reject(const RTCFilterFunctionNArguments* arguments);

@@ -13,18 +13,15 @@
 
 namespace gn {
 
-/// Where a ray towards the light ends: a little before its surface, and never before half of the way.
-inline float ray_end(const LightPoint& point, float largest_origin) {
-    if (!std::isfinite(point.distance)) {
-        return point.distance;
-    }
-    const auto short_of = static_cast<float>(ulps_at(light_ulps, point.distance + largest_origin));
-    return std::max(point.distance - short_of, 0.5F * point.distance);
+/// Where a ray towards the light ends: a little beyond it, see reference/occluders.h.
+inline float ray_end(float distance, float largest_origin) {
+    return distance + static_cast<float>(ulps_at(hit_ulps, static_cast<double>(distance + largest_origin)));
 }
 
 /// `start`: metres along the ray that are left out.
 template <int Width>
-void aim(RTCRayNt<Width>& rays, int lane, vec3 origin_ws, const LightPoint& point, float start = 0.0F) {
+void aim(Packet<Width>& packet, int lane, vec3 origin_ws, const LightPoint& point, float start = 0.0F) {
+    RTCRayNt<Width>& rays = packet.rays;
     rays.org_x[lane] = origin_ws.x;
     rays.org_y[lane] = origin_ws.y;
     rays.org_z[lane] = origin_ws.z;
@@ -32,11 +29,12 @@ void aim(RTCRayNt<Width>& rays, int lane, vec3 origin_ws, const LightPoint& poin
     rays.dir_y[lane] = point.direction_ws.y;
     rays.dir_z[lane] = point.direction_ws.z;
     rays.tnear[lane] = start;
-    rays.tfar[lane] = ray_end(point, static_cast<float>(largest(dvec3(origin_ws))));
+    rays.tfar[lane] = ray_end(point.distance, static_cast<float>(largest(dvec3(origin_ws))));
     rays.time[lane] = 0.0F;
     rays.mask[lane] = ~0U;
-    rays.id[lane] = 0;
+    rays.id[lane] = static_cast<unsigned>(lane);
     rays.flags[lane] = 0;
+    packet.distance[static_cast<std::size_t>(lane)] = point.distance;
 }
 
 /// Calls work(true) on this thread and work(false) on as many others as asked for (0: all there are). Where this

@@ -34,25 +34,26 @@ struct Around {
     [[nodiscard]] LightPoint centre_from(vec3 p_ws) const { return sample_light(light, p_ws, vec2(0.5F)); }
 
     /// Where the ray through p + offset meets the tangent plane, and how far that is from the sample.
-    void aim_from(RTCRayNt<16>& rays, int lane, vec2 at) const {
+    void aim_from(Packet<16>& packet, int lane, vec2 at) const {
         const vec3 offset_ws = at.x * axes.a_ws + at.y * axes.b_ws;
         const vec3 beside_ws = seat.origin_ws + offset_ws;
         const vec3 to_light_ws = centre_from(beside_ws).direction_ws;
         const float along = -glm::dot(n_ws, offset_ws) / glm::dot(n_ws, to_light_ws);
         const vec3 from_p_ws = offset_ws + along * to_light_ws;
         const vec3 q_ws = seat.origin_ws + from_p_ws;
-        aim<16>(rays, lane, q_ws, centre_from(q_ws), rim_clearance * glm::length(from_p_ws));
+        aim(packet, lane, q_ws, centre_from(q_ws), rim_clearance * glm::length(from_p_ws));
     }
 
     [[nodiscard]] bool any_blocked(std::span<const vec2> points) const {
-        alignas(64) RTCRayNt<16> rays;
+        Packet<16> packet;
+        const RTCRayNt<16>& rays = packet.rays;
         alignas(64) std::array<int, 16> valid{};
         for (std::size_t first = 0; first < points.size(); first += 16) {
             for (int lane = 0; lane < 16; ++lane) {
-                aim_from(rays, lane, points[first + static_cast<std::size_t>(lane)]);
+                aim_from(packet, lane, points[first + static_cast<std::size_t>(lane)]);
                 valid[static_cast<std::size_t>(lane)] = rays.tnear[lane] < rays.tfar[lane] ? -1 : 0;
             }
-            occluders.trace<16>(seat, blockers, valid.data(), rays);
+            occluders.trace(seat, blockers, valid.data(), packet);
             if (std::any_of(std::begin(rays.tfar), std::end(rays.tfar), [](float end) { return end < 0.0F; })) {
                 return true;
             }

@@ -62,12 +62,12 @@ struct Estimate {
 
 Estimate trace_single(const Occluders& occluders, const Blockers& blockers, const Seat& seat,
                       const LightSampler& sampler, vec3 n_ws) {
-    alignas(16) RTCRayNt<1> ray;
+    Packet<1> ray;
     const LightPoint point = sampler.centre();
-    aim<1>(ray, 0, seat.origin_ws, point);
+    aim(ray, 0, seat.origin_ws, point);
     const int valid = -1;
-    occluders.trace<1>(seat, blockers, &valid, ray);
-    const double visible = ray.tfar[0] < 0.0F ? 0.0 : 1.0;
+    occluders.trace(seat, blockers, &valid, ray);
+    const double visible = ray.rays.tfar[0] < 0.0F ? 0.0 : 1.0;
     return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
 }
 
@@ -92,7 +92,7 @@ Estimate combine(std::span<const double> visible, const Plan& plan) {
 template <int Width>
 Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const Plan& plan, std::size_t view_sample,
                     const Seat& seat, const LightSampler& sampler, vec3 n_ws, bool integral) {
-    alignas(4 * Width) RTCRayNt<Width> rays;
+    Packet<Width> packet;
     alignas(4 * Width) std::array<int, Width> valid{};
     std::array<std::uint32_t, Width> batch_of{};
     std::array<float, Width> weight{};
@@ -104,10 +104,10 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
     const auto flush = [&] {
         std::fill(valid.begin(), valid.begin() + lane, -1);
         std::fill(valid.begin() + lane, valid.end(), 0);
-        occluders.trace<Width>(seat, blockers, valid.data(), rays);
+        occluders.trace(seat, blockers, valid.data(), packet);
         for (int i = 0; i < lane; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (rays.tfar[i] >= 0.0F) {
+            if (packet.rays.tfar[i] >= 0.0F) {
                 visible[batch_of[k]] += 1.0;
                 irradiance += static_cast<double>(weight[k]);
             }
@@ -120,7 +120,7 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
         const sobol::Seeds seeds = plan.seeds(view_sample, batch);
         for (std::uint32_t i = 0; i < plan.per_batch; ++i) {
             const LightPoint point = sampler.at(plan.point(seeds, i));
-            aim<Width>(rays, lane, seat.origin_ws, point);
+            aim(packet, lane, seat.origin_ws, point);
             batch_of[static_cast<std::size_t>(lane)] = batch;
             weight[static_cast<std::size_t>(lane)] = integral ? sampler.irradiance(point, n_ws) : 0.0F;
             if (++lane == Width) {
@@ -264,11 +264,11 @@ bool Truth::blocked(dvec3 p_ws, dvec3 q_ws) const {
     if (!(length > 0.0)) {
         return false;
     }
-    alignas(16) RTCRayNt<1> ray;
-    aim<1>(ray, 0, origin_ws, {vec3(segment / length), static_cast<float>(length)});
+    Packet<1> ray;
+    aim(ray, 0, origin_ws, {vec3(segment / length), static_cast<float>(length)});
     const int valid = -1;
-    impl_->occluders.trace<1>({p_ws, origin_ws}, impl_->occluders.blockers(nullptr), &valid, ray);
-    return ray.tfar[0] < 0.0F;
+    impl_->occluders.trace({p_ws, origin_ws}, impl_->occluders.blockers(nullptr), &valid, ray);
+    return ray.rays.tfar[0] < 0.0F;
 }
 
 }  // namespace gn
