@@ -165,8 +165,8 @@ TEST(Show, AnOrthographicCamerasPixelsAreEqualAtEveryDistance) {
         Scene scene = floor_below(5);
         Camera& camera = scene.cameras[0];
         camera.half_height = 3;
-        camera.forward_ws = slanted ? vec3(0, -0.5F, -std::sqrt(0.75F)) : camera.forward_ws;
-        camera.position_ws.z = slanted ? 8.0F : 0.0F;
+        camera.forward_ws = slanted ? vec3(0, -std::sqrt(0.5F), -std::sqrt(0.5F)) : camera.forward_ws;
+        camera.position_ws.z = slanted ? 5.0F : 0.0F;
         const Shown texels = show(scene, "pcf,placement=single,resolution=256", {"texels"}, 90, 90).front();
         const double expected = 6.0 / 90 * 256 / 40;
         const double found = texels.values.at(45, 45, 0);

@@ -54,9 +54,12 @@ TEST(CascadesRendered, CasterBeforeTheNearPlaneStillCasts) {
     finish_scene(scene);
     for (const char* fit : {"fit=plain", "fit=fitted", "fit=stable", "fit=warped", "split=sdsm-minmax"}) {
         const auto c = test::compare(scene, std::string("hard,placement=cascades,cascades.") + fit);
-        EXPECT_LT(*c.errors.leak, 0.03) << fit;
-        EXPECT_LT(*c.errors.mismatch, 0.004) << fit;
-        EXPECT_GT(std::count(c.truth.visibility.begin(), c.truth.visibility.end(), 0.0F), 500) << fit;
+        // The roof's shadow has a border of some hundred pixels, along which a texel may lie on the other side: 4 were measured,
+        // one in ten may.
+        const auto dark = static_cast<double>(c.errors.dark);
+        EXPECT_GT(dark, 500) << fit;
+        EXPECT_LE(*c.errors.leak * dark, 10) << fit;
+        EXPECT_LE(*c.errors.mismatch * static_cast<double>(c.errors.samples), 10) << fit;
     }
 }
 
@@ -79,6 +82,7 @@ TEST(CascadesRendered, DefaultBiasLeavesNoAcne) {
                 }
             }
             ASSERT_GT(acne.y, 500) << name;
+            // Measured: what two samples of 2389 lose in the corridor, whose far stable windows are coarse; 2e-5 elsewhere.
             EXPECT_LE(acne.x / acne.y, 1e-3) << name << " " << recipe << " of " << acne.y;
         }
     }
