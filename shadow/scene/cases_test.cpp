@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Small inputs that once gave a wrong picture, where they lie beside the source tree: `scene` holds the same triangles as
 // `expected`.
+#include "shadow/scene/casting.h"
 #include "shadow/scene/testing.h"
 
 #include <algorithm>
@@ -102,6 +103,87 @@ TEST(Cases, MasksAreRead) {
     }
     const Scene fallback = load_scene((cases() / "webp_mask/fallback.glb").string());
     EXPECT_TRUE(has_mask(fallback, material(fallback, "leaves")));
+}
+
+// As the same file with the name as it stands on this disc.
+TEST(Cases, NamesOfOtherSystems) {
+    if (!std::filesystem::exists(cases())) {
+        GTEST_SKIP() << "skipped: the folder of cases is not here";
+    }
+    const auto load = [](const char* file) {
+        return load_scene((cases() / "mtl_windows_paths" / (std::string(file) + ".obj")).string());
+    };
+    const Scene good = load("good");
+    EXPECT_TRUE(good.notes.empty()) << good.notes[0];
+    ASSERT_TRUE(has_mask(good, material(good, "leaf")));
+    for (const char* file : {"backslash", "dot", "case", "absolute", "kd_alpha"}) {
+        const Scene scene = load(file);
+        EXPECT_EQ(sorted_triangles(scene), sorted_triangles(good)) << file;
+        ASSERT_TRUE(has_mask(scene, material(scene, "leaf"))) << file;
+        EXPECT_EQ(material(scene, "leaf")->alpha_mode, material(good, "leaf")->alpha_mode) << file;
+        EXPECT_EQ(scene.textures.at(0).image.rgba, good.textures.at(0).image.rgba) << file;
+    }
+    EXPECT_TRUE(has_note(load("case"), "'Textures/Leaf_Mask.png'"));
+    EXPECT_TRUE(has_note(load("absolute"), "'Textures/Leaf_Mask.png'"));
+    EXPECT_TRUE(has_note(load("kd_alpha"), "no map_d"));
+}
+
+TEST(Cases, AFolderAboveTheModelIsReadWhereItIsAllowed) {
+    if (!std::filesystem::exists(cases())) {
+        GTEST_SKIP() << "skipped: the folder of cases is not here";
+    }
+    const std::string file = (cases() / "parent_folder_texture/models/scene.gltf").string();
+    const Scene refused = load_scene(file);
+    EXPECT_TRUE(refused.textures.empty());
+    EXPECT_TRUE(
+        has_note(refused, "'../textures/leaf.png' lies outside the model's folder; allow it with --assets DIR"));
+    for (const char* allowed : {"parent_folder_texture", "parent_folder_texture/textures"}) {
+        const Scene scene = load_scene(file, {.assets = {cases() / allowed}});
+        EXPECT_EQ(scene.textures.size(), 1U) << allowed;
+        EXPECT_FALSE(has_note(scene, "leaf.png")) << allowed;
+    }
+}
+
+TEST(Cases, LampsShineThroughTheirShades) {
+    if (!std::filesystem::exists(cases())) {
+        GTEST_SKIP() << "skipped: the folder of cases is not here";
+    }
+    const auto load = [](const char* file) {
+        return load_scene((cases() / "glass_lampshade" / (std::string(file) + ".glb")).string());
+    };
+    // Without the shade everything casts.
+    const Scene none = load("none");
+    EXPECT_EQ(casters(none, none.lights.at(0)).size(), none.objects.size());
+    EXPECT_TRUE(none.notes.empty()) << none.notes[0];
+    for (const char* file : {"blend_60", "transmission", "emissive_bulb"}) {
+        const Scene scene = load(file);
+        EXPECT_EQ(scene.objects.size() - casters(scene, scene.lights.at(0)).size(), 1U) << file;
+        EXPECT_FALSE(scene.notes.empty()) << file;
+    }
+}
+
+TEST(Cases, OneSideIsKeptApart) {
+    if (!std::filesystem::exists(cases())) {
+        GTEST_SKIP() << "skipped: the folder of cases is not here";
+    }
+    for (const char* file : {"away", "card_back", "card_front", "room_inward", "towards"}) {
+        const Scene scene = load_scene((cases() / "single_sided" / (std::string(file) + ".glb")).string());
+        const auto single = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                          [&](const Object& object) { return is_single_sided(scene, object); });
+        EXPECT_GT(single, 0) << file;
+        EXPECT_TRUE(scene.notes.empty()) << file << ": " << scene.notes[0];
+    }
+}
+
+TEST(Cases, SheetsBackToBackKeepBothFaces) {
+    if (!std::filesystem::exists(cases())) {
+        GTEST_SKIP() << "skipped: the folder of cases is not here";
+    }
+    const Scene scene = load_scene((cases() / "coplanar_double_faces/sheets.obj").string());
+    const auto faces = sorted_triangles(scene);
+    EXPECT_NE(std::adjacent_find(faces.begin(), faces.end()), faces.end()) << "no face lies on another";
+    EXPECT_NE(material(scene, "upper"), nullptr);
+    EXPECT_NE(material(scene, "under"), nullptr);
 }
 
 TEST(Cases, TransparencyOfMaterialLibraries) {

@@ -104,10 +104,15 @@ struct Ground {
     double height = 0;                                     ///< at_height: metres, in the file's coordinates
 };
 
+/// The axis of a file that points up.
+enum class UpAxis { y, z };
+
 /// What is chosen for a scene that leaves it open.
 struct LoadOptions {
     Ground ground;        ///< for files; a built-in scene has its own
     float aspect = 1.0F;  ///< width by height of the picture that default cameras frame the scene for
+    UpAxis up = UpAxis::y;
+    std::vector<std::filesystem::path> assets;  ///< folders that a file may read from besides its own
 };
 
 /// Loads a built-in scene by name or a file by path (.glb .gltf .obj .toml and what Assimp knows). A built-in name may
