@@ -30,6 +30,23 @@ TEST(Obj, ImpossibleFacesAreDroppedWithANote) {
     EXPECT_TRUE(has_note(scene, "Dropped 7 faces"));
 }
 
+TEST(Obj, WhatIsNotReadIsCounted) {
+    const Scene scene = load(std::string(corners) +
+                             "vt 0 0\nf 1/1/1 2/7/-3 3/1\nl 1 2\np 1\np 2\nvp 0 1\ncstype bezier\ndeg 3\n"
+                             "curv 0 1 1 2 3 4\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nend\nbzp 1 2 3 4\ncall more.obj\n"
+                             "s 1\nusemap x\nfoo 1\nbar 2\n");
+    EXPECT_EQ(scene.triangles.size(), 1U);
+    EXPECT_TRUE(has_note(scene, "Skipped 3 lines and points"));
+    EXPECT_TRUE(has_note(scene, "Skipped 3 free-form curves and surfaces"));
+    EXPECT_TRUE(has_note(scene, "1 texture coordinate that is not there"));
+    EXPECT_TRUE(has_note(scene, "2 normals that are not there"));
+    EXPECT_TRUE(has_note(scene, "1 other file that it calls"));
+    EXPECT_TRUE(has_note(scene, "Did not understand 2 lines, the first of them 'foo'"));
+    const Scene colored = load("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
+    EXPECT_TRUE(has_note(colored, "3 vertices have colours"));
+    EXPECT_TRUE(load("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1.0\nvt 0 0 0\nf 1 2 3\n").notes.empty());
+}
+
 TEST(Obj, AnyLineEndingSpacingEncodingAndNumber) {
     EXPECT_EQ(load("v 0 0 0\r\nv\t+1 0. 0e0\r\nv 0 1E0 0\r\nf 1 \\\r\n 2 3").triangles.size(), 1U);
     EXPECT_EQ(load("v\0 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"sv).triangles.size(), 1U);
