@@ -13,8 +13,8 @@ namespace {
 constexpr const char* plate = "mtllib ../library/m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nusemtl m\nf 1 2 3 4\n";
 
 CommandResult compare(const std::string& scene, std::vector<std::string> more) {
-    std::vector<std::string> words{"compare", scene, "-r", "none", "--size", "32x32", "--samples", "1", "--repeat", "1",
-                                   "--json",  "-"};
+    std::vector<std::string> words{"compare",   scene, "-r",       "none", "--size", "32x32",
+                                   "--samples", "1",   "--repeat", "1",    "--json", "-"};
     words.insert(words.end(), more.begin(), more.end());
     return run_gnomon(words);
 }

@@ -6,11 +6,14 @@
 
 namespace gn {
 
-LoadOptions load_options(const GroundOption& ground, const Size& size) {
+LoadOptions load_options(const FileOptions& file, const Size& size) {
+    const GroundOption& ground = file.ground;
     LoadOptions options;
     options.ground.kind = ground.height ? Ground::at_height : ground.automatic ? Ground::automatic : Ground::none;
     options.ground.height = ground.height.value_or(0.0);
     options.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    options.up = file.up == "z" ? UpAxis::z : UpAxis::y;
+    options.assets.assign(file.assets.begin(), file.assets.end());
     return options;
 }
 

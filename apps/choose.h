@@ -10,7 +10,7 @@
 namespace gn {
 
 /// How a scene is loaded for a picture of this size with the ground that --ground asks for.
-LoadOptions load_options(const GroundOption& ground, const Size& size);
+LoadOptions load_options(const FileOptions& file, const Size& size);
 
 /// The index of the light that --light names. Throws Error listing the scene's lights.
 std::size_t find_light(const Scene& scene, const std::string& name);

@@ -38,6 +38,11 @@ recipe, and a run that measured nothing, are no failure unless --strict is given
 constexpr const char* ground_help =
     "auto sets a file without a floor on a ground plane; none; or a height in metres of the file (default: auto)";
 
+constexpr const char* up_help =
+    "y or z: the axis of a file that points up; z turns it, with lights and cameras (default: y)";
+constexpr const char* assets_help =
+    "A folder that a file may read from besides its own, with all below it; may be repeated";
+
 constexpr const char* compare_examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
   gnomon compare fence corridor -r hard -r hard,resolution=4096 --json figures.json
@@ -74,6 +79,12 @@ GroundOption parse_ground(const std::string& text) {
         throw InputError(fmt::format("--ground: '{}' is no ground; valid are auto, none, or a height in metres", text));
     }
     return {false, number ? std::optional<double>(height) : std::nullopt};
+}
+
+void check_up(const FileOptions& file) {
+    if (file.up != "y" && file.up != "z") {
+        throw InputError(fmt::format("--up: '{}' is no axis that points up; valid are y, z", file.up));
+    }
 }
 
 /// The words of the command line; one that ends in a comma goes on in the next: -r pcf, pcf.size=5.
@@ -141,6 +152,15 @@ struct Parser {
             ->required();
     }
 
+    static void add_file_options(CLI::App* command, FileOptions& file, std::string& ground) {
+        command->add_option("--ground", ground, ground_help);
+        command->add_option("--up", file.up, up_help);
+        command->add_option("--assets", file.assets, assets_help)
+            ->type_name("DIR")
+            ->expected(1)
+            ->allow_extra_args(false);
+    }
+
     void add_render() {
         CLI::App* command = app.add_subcommand("render", "One picture of a scene with one recipe's shadows");
         command->add_option("SCENE", render.scene, "Built-in name or file")->required();
@@ -148,7 +168,7 @@ struct Parser {
         command->add_option("-o,--output", render.output, "Picture to write, .png or .exr (default: out.png)");
         command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", render.view, "Name of the camera (default: the first)");
-        command->add_option("--ground", render_ground, ground_help);
+        add_file_options(command, render.file, render_ground);
         command
             ->add_option("--antialias", render.antialias,
                          "Frames with sub-pixel shifts that are averaged; each costs a whole frame, 1 smooths "
@@ -172,7 +192,7 @@ struct Parser {
         command->add_option("--json", compare.json, "Write the figures as JSON; - is standard output");
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
-        command->add_option("--ground", compare_ground, ground_help);
+        add_file_options(command, compare.file, compare_ground);
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
         command->add_option("--against", compare.against,
                             "Also hold every run against this recipe's visibility: the figures 'against'");
@@ -273,13 +293,15 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         return parser.show;
     }
     if (name == "render") {
-        parser.render.ground = parse_ground(parser.render_ground);
+        check_up(parser.render.file);
+        parser.render.file.ground = parse_ground(parser.render_ground);
         parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
         return parser.render;
     }
     if (name == "compare") {
+        check_up(parser.compare.file);
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
-        parser.compare.ground = parse_ground(parser.compare_ground);
+        parser.compare.file.ground = parse_ground(parser.compare_ground);
         parser.compare.command = quoted_command(words);
         parser.compare.follow_path = parser.path->count() > 0;
         if (parser.compare.folder.empty() && parser.compare.json.empty()) {

@@ -50,9 +50,16 @@ struct GroundOption {
     std::optional<double> height;  ///< metres
 };
 
+/// How a file is read.
+struct FileOptions {
+    GroundOption ground;
+    std::vector<std::string> assets;  ///< folders that it may read from besides its own
+    std::string up = "y";             ///< its axis that points up, y or z
+};
+
 struct RenderOptions {
     std::string scene, recipe = "pcf", output = "out.png", view, visibility;
-    GroundOption ground;
+    FileOptions file;
     int antialias = 4;        ///< frames, each moved by a part of a pixel
     std::string show, light;  ///< a picture of the hidden and the light that it is of; "" where not asked for
     Size size;
@@ -62,7 +69,7 @@ struct RenderOptions {
 struct CompareOptions {
     std::vector<std::string> scenes, recipes;
     std::string folder, json, view, light;  ///< "" where not asked for
-    GroundOption ground;
+    FileOptions file;
     std::string against;  ///< the recipe that all others are held against besides, or ""
     bool follow_path = false;
     std::string path;  ///< name of the camera path to follow; "" is the scene's first

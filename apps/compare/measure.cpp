@@ -41,9 +41,13 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
     std::string command =
         fmt::format("gnomon compare {} -r {} --size {}x{} --samples {} --repeat {}", shell_word(scene),
                     shell_word(recipe), options.size.width, options.size.height, options.samples, options.repeat);
-    command += options.ground.height       ? fmt::format(" --ground {}", *options.ground.height)
-               : !options.ground.automatic ? " --ground none"
-                                           : "";
+    command += options.file.ground.height       ? fmt::format(" --ground {}", *options.file.ground.height)
+               : !options.file.ground.automatic ? " --ground none"
+                                                : "";
+    command += options.file.up == "y" ? "" : " --up " + options.file.up;
+    for (const std::string& folder : options.file.assets) {
+        command += " --assets " + shell_word(folder);
+    }
     command += options.view.empty() ? "" : " --view " + shell_word(options.view);
     command += options.light.empty() ? "" : " --light " + shell_word(options.light);
     command += options.against.empty() ? "" : " --against " + shell_word(options.against);

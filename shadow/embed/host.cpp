@@ -60,9 +60,9 @@ Result<Done> Session::set_scene(Scene scene) noexcept {
     });
 }
 
-Result<Done> Session::load_scene(const std::string& name_or_path) noexcept {
+Result<Done> Session::load_scene(const std::string& name_or_path, const LoadOptions& options) noexcept {
     return guarded<Done>([&] {
-        Scene scene = gn::load_scene(name_or_path);
+        Scene scene = gn::load_scene(name_or_path, options);
         state_->uploaded.reset();
         state_->scene = std::move(scene);
         state_->uploaded = upload_scene(*state_->device, *state_->scene);

@@ -59,7 +59,7 @@ class Session {
     Result<Done> set_scene(Scene scene) noexcept;
     /// The same from a file or a built-in name, completed as a scene of a file is: moved where it lies far from zero
     /// (Scene::origin says from where), with a camera and a sun where it has none.
-    Result<Done> load_scene(const std::string& name_or_path) noexcept;
+    Result<Done> load_scene(const std::string& name_or_path, const LoadOptions& options = {}) noexcept;
     /// The scene as it was completed; null before set_scene.
     [[nodiscard]] const Scene* scene() const noexcept;
 

@@ -150,8 +150,8 @@ void place_nodes(const aiNode* root, Model& model) {
 
 }  // namespace
 
-Model load_assimp(const std::filesystem::path& path) {
-    const Folder folder(path);
+Model load_assimp(const std::filesystem::path& path, const Assets& assets) {
+    const Folder folder(path, assets);
     const std::string shown = clean_text(path.string());
     read_file(path, largest_file);
     Assimp::Importer importer;
@@ -181,6 +181,9 @@ Model load_assimp(const std::filesystem::path& path) {
         model.meshes.back().material = known ? model.meshes.back().material : 0;
     }
     place_nodes(data->mRootNode, model);
+    for (std::string& note : folder.take_notes()) {
+        add_note(model.notes, std::move(note));
+    }
     return model;
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <system_error>
 
@@ -36,51 +37,196 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t cap) {
     return bytes;
 }
 
-Folder::Folder(const fs::path& model_file) {
+namespace {
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
+// Deeper names are no work of an exporter, and more files of one spelling no accident.
+constexpr std::size_t most_parts = 64, most_matches = 16;
+
+// A name as its folders and the file, on any system's convention.
+struct Name {
+    std::vector<std::string> parts;  ///< without empty ones, ".", and a drive or scheme
+    bool rooted = false;             ///< begins at a root of this system
+    bool foreign = false;            ///< begins at a drive, a server or a scheme
+    [[nodiscard]] bool climbs() const { return !parts.empty() && parts.front() == ".."; }
+};
+
+Name split(std::string_view name) {
+    std::string portable(name);
+    std::replace(portable.begin(), portable.end(), '\\', '/');
+    Name split;
+    split.foreign =
+        portable.starts_with("//") || portable.starts_with("file:") || (portable.size() > 1 && portable[1] == ':');
+    split.rooted = !split.foreign && portable.starts_with('/');
+    portable.erase(0, split.foreign ? portable.find(':') + 1 : 0);
+    for (std::size_t begin = 0; begin <= portable.size();) {
+        const std::size_t end = std::min(portable.find('/', begin), portable.size());
+        const std::string part = portable.substr(begin, end - begin);
+        // "name/.." is a detour; what is left of ".." leads out of the folder.
+        if (part == ".." && !split.parts.empty() && split.parts.back() != "..") {
+            split.parts.pop_back();
+        } else if (!part.empty() && part != ".") {
+            split.parts.push_back(part);
+        }
+        begin = end + 1;
+    }
+    return split;
+}
+
+fs::path joined(fs::path from, std::span<const std::string> parts) {
+    for (const std::string& part : parts) {
+        from /= part;
+    }
+    return from;
+}
+
+}  // namespace
+
+Folder::Folder(const fs::path& model_file, std::span<const fs::path> assets) {
     std::error_code error;
     const fs::path parent = model_file.parent_path();
-    root_ = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
+    roots_.push_back(fs::canonical(parent.empty() ? fs::path(".") : parent, error));
     if (error) {
         fail("{}: no such file (its folder cannot be opened)", clean_text(model_file.string()));
     }
+    for (const fs::path& folder : assets) {
+        roots_.push_back(fs::canonical(folder, error));
+        if (error || !fs::is_directory(roots_.back(), error)) {
+            fail("--assets: '{}': no such folder", clean_text(folder.string()));
+        }
+    }
+}
+
+bool Folder::inside(const fs::path& real) const {
+    return std::any_of(roots_.begin(), roots_.end(), [&](const fs::path& root) {
+        return std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+    });
 }
 
 bool Folder::holds(const fs::path& file) const {
     // Follow every link first: only where the file really is counts.
     std::error_code error;
     const fs::path real = fs::canonical(file, error);
-    if (error || !fs::is_regular_file(real, error)) {
-        return false;
-    }
-    const auto [root_end, unused] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-    return root_end == root_.end();
+    return !error && fs::is_regular_file(real, error) && inside(real);
 }
 
-fs::path Folder::resolve(std::string_view name) const {
+const std::vector<std::string>& Folder::spellings(const fs::path& folder, const std::string& part) const {
+    // List each folder once, and none that a link leads out to.
+    const auto [listed, added] = listings_.try_emplace(folder);
+    std::error_code error;
+    if (added && inside(fs::canonical(folder, error)) && !error) {
+        for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+             entry.increment(error)) {
+            const std::string name = entry->path().filename().string();
+            listed->second[lower(name)].push_back(name);
+        }
+        for (auto& [key, names] : listed->second) {
+            std::sort(names.begin(), names.end());
+        }
+    }
+    static const std::vector<std::string> none;
+    const auto found = listed->second.find(lower(part));
+    return found != listed->second.end() ? found->second : none;
+}
+
+std::vector<fs::path> Folder::matches(const fs::path& from, std::span<const std::string> parts) const {
+    // The very spelling first, then others in order.
+    std::vector<fs::path> found{from};
+    for (const std::string& part : parts) {
+        std::vector<fs::path> next;
+        for (const fs::path& folder : found) {
+            const std::vector<std::string>& names = spellings(folder, part);
+            const bool exact = std::find(names.begin(), names.end(), part) != names.end();
+            for (const std::string& name : exact ? std::vector<std::string>{part} : names) {
+                if (next.size() < most_matches) {
+                    next.push_back(folder / name);
+                }
+            }
+        }
+        found = std::move(next);
+    }
+    std::erase_if(found, [&](const fs::path& file) { return !holds(file); });
+    return found;
+}
+
+std::vector<fs::path> Folder::search(std::span<const std::string> parts, const fs::path& beside) const {
+    std::vector<fs::path> places{beside};
+    places.insert(places.end(), roots_.begin(), roots_.end());
+    // Take leading folders off until a file is found: the longer what is left, the surer it is the one that was meant.
+    for (; !parts.empty(); parts = parts.subspan(1)) {
+        if (std::find(parts.begin(), parts.end(), "..") != parts.end()) {
+            continue;
+        }
+        std::vector<fs::path> found;
+        for (const fs::path& place : places) {
+            for (const fs::path& file : place.empty() ? std::vector<fs::path>{} : matches(place, parts)) {
+                if (std::find(found.begin(), found.end(), file) == found.end()) {
+                    found.push_back(file);
+                }
+            }
+        }
+        if (!found.empty()) {
+            return found;
+        }
+    }
+    return {};
+}
+
+std::string Folder::shown_place(const fs::path& file) const {
+    const bool own = std::mismatch(root().begin(), root().end(), file.begin(), file.end()).first == root().end();
+    return clean_text((own ? file.lexically_relative(root()) : file).generic_string());
+}
+
+fs::path Folder::resolve(std::string_view name, const fs::path& beside) const {
     const std::string shown = clean_text(name);
-    if (name.empty() || name.find('\0') != std::string_view::npos) {
+    const Name asked = split(name);
+    if (asked.parts.empty() || asked.parts.size() > most_parts || name.find('\0') != std::string_view::npos) {
         fail("'{}': not a file name", shown);
     }
 
-    // Refuse by spelling whatever could leave the folder, on any system's convention.
-    std::string portable(name);
-    std::replace(portable.begin(), portable.end(), '\\', '/');
-    const fs::path relative = fs::path(portable).lexically_normal();
-    const bool drive = portable.size() > 1 && portable[1] == ':';
-    if (relative.is_absolute() || drive || (relative.begin() != relative.end() && *relative.begin() == "..")) {
-        fail("'{}' lies outside the model's folder; only files inside it are read", shown);
+    // Where the name says. A link may lead out although the name does not.
+    const std::array<fs::path, 2> starts{asked.rooted ? fs::path("/") : beside, asked.rooted ? fs::path() : root()};
+    for (const fs::path& start : starts) {
+        const fs::path file = joined(start, asked.parts);
+        if (!start.empty() && !asked.foreign && holds(file)) {
+            return file;
+        }
     }
 
-    // Then by place: a link may lead out although the name does not.
-    std::error_code error;
-    const fs::path file = root_ / relative;
-    if (!fs::exists(file, error)) {
-        fail("'{}': no such file in the model's folder", shown);
+    // Where another system may have meant it.
+    const std::vector<fs::path> found = search(asked.parts, beside);
+    if (!found.empty()) {
+        const std::string which =
+            found.size() > 1 ? fmt::format(", the first of {} files that would do", found.size()) : "";
+        notes_.try_emplace(shown, fmt::format("No file is named '{}' as it stands; '{}' is read{}.", shown,
+                                              shown_place(found[0]), which));
+        return found[0];
     }
-    if (!holds(file)) {
+    const bool more = roots_.size() > 1;
+    if (asked.rooted || asked.foreign || asked.climbs()) {
+        fail("'{}' lies outside the model's folder{}; allow it with --assets DIR", shown,
+             more ? " and those allowed" : "");
+    }
+    std::error_code error;
+    if (fs::exists(joined(root(), asked.parts), error)) {
         fail("'{}' is no plain file inside the model's folder", shown);
     }
-    return file;
+    fail("'{}': no such file in the model's folder{}", shown, more ? " or those allowed" : "");
+}
+
+std::vector<std::string> Folder::take_notes() const {
+    std::vector<std::string> fresh;
+    for (const auto& [name, note] : notes_) {
+        if (said_.insert(name).second) {
+            fresh.push_back(note);
+        }
+    }
+    return fresh;
 }
 
 namespace {

@@ -144,8 +144,8 @@ void note_left_out(File& file) {
 
 }  // namespace
 
-Model load_gltf(const std::filesystem::path& path) {
-    File file = parse_file(path);
+Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
+    File file = parse_file(path, assets);
     Model model;
     note_left_out(file);
     Builder builder(file, model);

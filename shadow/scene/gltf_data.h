@@ -18,6 +18,7 @@ struct File {
     std::string shown;  ///< the path, fit for messages
     tinygltf::Model data;
     std::map<int, std::vector<std::byte>> external_images;  ///< bytes of images that are not in a buffer view
+    std::map<std::string, std::string> refusals;  ///< names of files that were not found or not allowed, and why
     std::vector<std::string> notes;
     std::size_t triangles_decoded = 0;  ///< of all primitives so far, before instancing
 };
@@ -25,8 +26,8 @@ struct File {
 /// Throws Error for what is no JSON, for nesting or a number of values that only an attack has, and for indices,
 /// counts and lists of another type: the parser would quietly read them as absent.
 void check_json(std::string_view json, const std::string& shown);
-/// Reads a .gltf or .glb; external files only from its folder. Throws Error.
-File parse_file(const std::filesystem::path& path);
+/// Reads a .gltf or .glb; external files only from its folder and `assets`. Throws Error.
+File parse_file(const std::filesystem::path& path, const Assets& assets);
 
 /// One note for each kind of extension that the file uses and that is not understood.
 void note_extensions(File& file);

@@ -19,8 +19,21 @@ bool file_exists(const std::string& path, void* user) {
     return static_cast<Reader*>(user)->folder.holds(path);
 }
 
-std::string expand_path(const std::string& path, void*) {
-    return path;
+// The parser joins the folder with a name: take it off again, and find the file that the name means; "" where there is none.
+std::string expand_path(const std::string& path, void* user) {
+    const auto& reader = *static_cast<Reader*>(user);
+    std::string folder = reader.folder.root().string();
+    folder += folder.ends_with('/') ? "" : "/";
+    if (!path.starts_with(folder)) {
+        return "";
+    }
+    const std::string name = path.substr(folder.size());
+    try {
+        return reader.folder.resolve(name).string();
+    } catch (const Error& problem) {
+        reader.file->refusals[name] = problem.what();
+        return "";
+    }
 }
 
 bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* user) {
@@ -95,10 +108,10 @@ void check_extensions(File& file) {
 
 }  // namespace
 
-File parse_file(const std::filesystem::path& path) {
+File parse_file(const std::filesystem::path& path, const Assets& assets) {
     File file;
     file.shown = clean_text(path.string());
-    Reader reader{Folder(path), &file};
+    Reader reader{Folder(path, assets), &file};
     const std::vector<std::byte> bytes = read_file(path);
     if (bytes.size() < 4) {
         fail("{}: the file is empty; a glTF file was expected", file.shown);
@@ -126,8 +139,15 @@ File parse_file(const std::filesystem::path& path) {
         fail("{}: not a valid glTF file ({})", file.shown, first_line(problem.what()));
     }
     if (!good) {
+        // A buffer that cannot be had says more than the parser does.
+        for (const auto& [name, refusal] : file.refusals) {
+            if (errors.find(name) != std::string::npos) {
+                fail("{}: {}", file.shown, refusal);
+            }
+        }
         fail("{}: not a valid glTF file ({})", file.shown, first_line(errors));
     }
+    file.notes = reader.folder.take_notes();
     check_extensions(file);
     return file;
 }

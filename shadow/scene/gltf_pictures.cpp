@@ -3,8 +3,30 @@
 #include "shadow/scene/gltf_pictures.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace gn::gltf {
+
+namespace {
+
+// As the parser decodes the name of a file: %20 is a blank, and so is +.
+std::string decoded_uri(std::string_view uri) {
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned code = 0;
+        const char* hex = uri.data() + std::min(i + 1, uri.size());
+        const char* end = uri.data() + std::min(i + 3, uri.size());
+        if (uri[i] == '%' && end - hex == 2 && std::from_chars(hex, end, code, 16).ptr == end) {
+            name += static_cast<char>(code);
+            i += 2;
+        } else {
+            name += uri[i] == '+' ? ' ' : uri[i];
+        }
+    }
+    return name;
+}
+
+}  // namespace
 
 bool Pictures::exists(int image) const {
     return image >= 0 && static_cast<std::size_t>(image) < file_.data.images.size();
@@ -113,6 +135,10 @@ std::span<const std::byte> Pictures::bytes_of(int image) const {
     }
     const tinygltf::Image& data = file_.data.images[static_cast<std::size_t>(image)];
     if (data.bufferView < 0) {
+        const auto refusal = file_.refusals.find(decoded_uri(data.uri));
+        if (refusal != file_.refusals.end()) {
+            throw Error(refusal->second);
+        }
         fail("picture '{}' cannot be read from the model's folder", shown_name(image));
     }
     const tinygltf::BufferView& view = at(file_.data.bufferViews, data.bufferView, file_, "buffer view");

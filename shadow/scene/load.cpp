@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "shadow/scene/files.h"
 #include "shadow/scene/model.h"
+#include "shadow/scene/upright.h"
 
 #include <algorithm>
 
@@ -26,21 +27,36 @@ bool is_known(const std::string& extension) {
            std::find(through_assimp.begin(), through_assimp.end(), extension) != through_assimp.end();
 }
 
+// Turned where that is asked for, pointed out where it shows and is not.
+Model load_upright(const std::filesystem::path& path, const LoadOptions& options) {
+    Model model = load_model(path, options.assets, true);
+    if (options.up == UpAxis::y) {
+        // What a scene places has been looked at one by one.
+        if (lower_extension(path) != ".toml") {
+            note_side(model);
+        }
+        return model;
+    }
+    Model upright;
+    append_model(upright, std::move(model), y_up_from_z_up());
+    return upright;
+}
+
 }  // namespace
 
-Model load_model(const std::filesystem::path& path, bool toml_allowed) {
+Model load_model(const std::filesystem::path& path, const Assets& assets, bool toml_allowed) {
     const std::string extension = lower_extension(path);
     if (extension == ".gltf" || extension == ".glb") {
-        return load_gltf(path);
+        return load_gltf(path, assets);
     }
     if (extension == ".obj") {
-        return load_obj(path);
+        return load_obj(path, assets);
     }
     if (extension == ".toml" && toml_allowed) {
-        return load_toml(path);
+        return load_toml(path, assets);
     }
     if (std::find(through_assimp.begin(), through_assimp.end(), extension) != through_assimp.end()) {
-        return load_assimp(path);
+        return load_assimp(path, assets);
     }
     fail("{}: files of type '{}' are not read; known are .glb .gltf .obj{} {}", clean_text(path.string()),
          clean_text(extension), toml_allowed ? " .toml" : "", fmt::join(through_assimp, " "));
@@ -55,15 +71,20 @@ Scene load_scene(const std::string& name_or_path, const LoadOptions& options) {
     Scene scene;
     try {
         if (is_path) {
-            scene = flatten(load_model(path, true));
+            scene = flatten(load_upright(path, options));
             scene.name = clean_text(path.stem().string());
         } else {
             scene = make_builtin_scene(name_or_path);
             if (options.ground.kind == Ground::at_height) {
                 fail("scene '{}' is built in and has its own ground; a height is for files", name_or_path);
             }
+            if (options.up != UpAxis::y) {
+                fail("scene '{}' is built in and stands upright; --up is for files", name_or_path);
+            }
         }
-        finish_scene(scene, {is_path ? options.ground : Ground{}, options.aspect});
+        LoadOptions finish = options;
+        finish.ground = is_path ? options.ground : Ground{};
+        finish_scene(scene, finish);
     } catch (const std::bad_alloc&) {
         fail("{}: not enough memory for the scene", clean_text(name_or_path));
     } catch (const std::length_error&) {

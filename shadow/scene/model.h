@@ -71,13 +71,16 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model);
 /// Writes every instance in world space. Throws Error beyond max_triangles or max_instances, before it allocates.
 Scene flatten(const Model& model);
 
-// The loaders. Each throws Error with one sentence and reads nothing outside the file's folder.
-Model load_gltf(const std::filesystem::path& path);
-Model load_obj(const std::filesystem::path& path);
-Model load_assimp(const std::filesystem::path& path);
-Model load_toml(const std::filesystem::path& path);
+/// Folders that a file may read from besides its own.
+using Assets = std::vector<std::filesystem::path>;
+
+// The loaders. Each throws Error with one sentence and reads nothing outside the file's folder and `assets`.
+Model load_gltf(const std::filesystem::path& path, const Assets& assets);
+Model load_obj(const std::filesystem::path& path, const Assets& assets);
+Model load_assimp(const std::filesystem::path& path, const Assets& assets);
+Model load_toml(const std::filesystem::path& path, const Assets& assets);
 /// By extension; `.toml` only where `toml_allowed`.
-Model load_model(const std::filesystem::path& path, bool toml_allowed);
+Model load_model(const std::filesystem::path& path, const Assets& assets, bool toml_allowed);
 
 // The steps of finish_scene.
 void drop_bad_triangles(Scene& scene);

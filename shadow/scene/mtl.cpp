@@ -104,13 +104,16 @@ void MaterialLibrary::read_file_named(const std::string& name) {
         return;
     }
     std::string text;
+    std::filesystem::path file;
     try {
-        text = decode_text(read_file(folder_.resolve(name), largest_library));
+        file = folder_.resolve(name);
+        text = decode_text(read_file(file, largest_library));
     } catch (const Error& problem) {
         add_note(model_.notes, fmt::format("Material library ignored: {}.", problem.what()));
         return;
     }
 
+    beside_ = file.parent_path();
     Entry entry;
     Lines lines(text);
     std::string_view line;
@@ -179,7 +182,7 @@ std::optional<Image8> MaterialLibrary::load_image(const std::string& name) {
         if (pixels_ > max_texture_pixels) {
             fail("'{}' is one too many: a scene may have {} pixels in all", clean_text(name), max_texture_pixels);
         }
-        Image8 image = decode_image(read_file(folder_.resolve(name)), fmt::format("'{}'", clean_text(name)));
+        Image8 image = decode_image(read_file(folder_.resolve(name, beside_)), fmt::format("'{}'", clean_text(name)));
         pixels_ += image.rgba.size() / 4;
         return image;
     } catch (const Error& problem) {
@@ -189,7 +192,7 @@ std::optional<Image8> MaterialLibrary::load_image(const std::string& name) {
 }
 
 int MaterialLibrary::load_texture(const Entry& entry) {
-    const std::string key = entry.color_map + '\n' + entry.alpha_map + (entry.clamp ? "\nclamp" : "");
+    const std::string key = entry.color_map + '\n' + entry.alpha_map + (entry.clamp ? "\nclamp" : "") + '\n' + beside_.string();
     const auto known = textures_.find(key);
     if (known != textures_.end()) {
         return known->second;

@@ -27,6 +27,7 @@ class MaterialLibrary {
 
     const Folder& folder_;
     Model& model_;
+    std::filesystem::path beside_;  ///< the folder of the library that is being read
     std::map<std::string, int, std::less<>> materials_;
     std::map<std::string, int> textures_;
     std::map<std::string, bool> read_;

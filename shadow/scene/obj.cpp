@@ -232,8 +232,8 @@ void note_oddities(const ObjFile& file, std::size_t dropped, std::vector<std::st
 
 }  // namespace
 
-Model load_obj(const std::filesystem::path& path) {
-    const Folder folder(path);
+Model load_obj(const std::filesystem::path& path, const Assets& assets) {
+    const Folder folder(path, assets);
     ObjFile file;
     {
         const std::string text = decode_text(read_file(path, largest_file));
@@ -258,6 +258,9 @@ Model load_obj(const std::filesystem::path& path) {
         maker.add(face);
     }
     note_oddities(file, maker.dropped(), model.notes);
+    for (std::string& note : folder.take_notes()) {
+        add_note(model.notes, std::move(note));
+    }
     for (std::size_t g = 0; g < model.meshes.size(); ++g) {
         if (!model.meshes[g].triangles.empty()) {
             model.instances.push_back({g, dmat4(1.0), model.meshes[g].name});

@@ -109,15 +109,15 @@ enum class UpAxis { y, z };
 
 /// What is chosen for a scene that leaves it open.
 struct LoadOptions {
-    Ground ground;        ///< for files; a built-in scene has its own
-    float aspect = 1.0F;  ///< width by height of the picture that default cameras frame the scene for
-    UpAxis up = UpAxis::y;
+    Ground ground;          ///< for files; a built-in scene has its own
+    float aspect = 1.0F;    ///< width by height of the picture that default cameras frame the scene for
+    UpAxis up = UpAxis::y;  ///< of a file; z turns it, with its lights and cameras, to y
     std::vector<std::filesystem::path> assets;  ///< folders that a file may read from besides its own
 };
 
 /// Loads a built-in scene by name or a file by path (.glb .gltf .obj .toml and what Assimp knows). A built-in name may
 /// carry parameters: "tilted:angle=85", "contact:size=2". Throws Error with one sentence; never reads outside the
-/// file's folder; ends in bounded time and memory.
+/// file's folder and options.assets; ends in bounded time and memory.
 Scene load_scene(const std::string& name_or_path, const LoadOptions& options = {});
 
 /// Completes a scene: bounds, origin (re-centres scenes far from zero), normals where missing, degenerate and

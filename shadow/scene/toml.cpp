@@ -2,6 +2,7 @@
 // .toml scenes: files, lights, cameras and camera paths placed by hand. docs/scenes.md has the keys.
 #include "shadow/scene/model.h"
 #include "shadow/scene/toml_table.h"
+#include "shadow/scene/upright.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -62,9 +63,21 @@ void order_object(const TomlTable& table, Model& model) {
     }
 }
 
-void add_file(const TomlTable& table, const Folder& folder, Model& model) {
-    static constexpr std::array<std::string_view, 7> keys{"path",  "translate", "rotate",  "quaternion",
-                                                          "scale", "casts",     "receives"};
+// Stood up where the table says that the file's z points up; looked at where it says nothing.
+dmat4 upright(const TomlTable& table, Model& part) {
+    const std::string up = table.text("up", "");
+    if (!up.empty() && up != "y" && up != "z") {
+        table.wrong("up", "y or z");
+    }
+    if (up.empty()) {
+        note_side(part);
+    }
+    return up == "z" ? y_up_from_z_up() : dmat4(1.0);
+}
+
+void add_file(const TomlTable& table, const Folder& folder, const Assets& assets, Model& model) {
+    static constexpr std::array<std::string_view, 8> keys{"path",       "up",    "translate", "rotate",
+                                                          "quaternion", "scale", "casts",     "receives"};
     table.check_keys(keys);
     const std::size_t first = model.instances.size();
     const std::string name = table.text("path", "");
@@ -74,7 +87,12 @@ void add_file(const TomlTable& table, const Folder& folder, Model& model) {
     } catch (const Error& problem) {
         fail("{}: path {}", table.where(), problem.what());
     }
-    append_model(model, load_model(path, false), placement(table));
+    Model part = load_model(path, assets, false);
+    const dmat4 ws_from_model = placement(table) * upright(table, part);
+    for (std::string& note : part.notes) {
+        note = fmt::format("'{}': {}", clean_text(name), note);
+    }
+    append_model(model, std::move(part), ws_from_model);
     order(table, std::span(model.instances).subspan(first));
 
     // The same file placed again and again must not outgrow the limits before anyone looks.
@@ -262,7 +280,7 @@ void add_path(const TomlTable& table, Model& model) {
 
 }  // namespace
 
-Model load_toml(const std::filesystem::path& path) {
+Model load_toml(const std::filesystem::path& path, const Assets& assets) {
     const std::string shown = clean_text(path.string());
     const std::vector<std::byte> bytes = read_file(path, largest_scene_file);
     toml::table root;
@@ -275,7 +293,10 @@ Model load_toml(const std::filesystem::path& path) {
     static constexpr std::array<std::string_view, 5> keys{"file", "object", "light", "camera", "path"};
     const TomlTable table(root, shown);
     table.check_keys(keys);
-    const Folder folder(path);
+    const Folder folder(path, assets);
+    // The user named this folder: what the scene places may use all of it, not only the folder that it lies in itself.
+    Assets allowed = assets;
+    allowed.push_back(folder.root());
     Model model;
     for (const TomlTable& light : table.tables("light")) {
         add_light(light, model);
@@ -284,7 +305,10 @@ Model load_toml(const std::filesystem::path& path) {
         add_camera(camera, model);
     }
     for (const TomlTable& file : table.tables("file")) {
-        add_file(file, folder, model);
+        add_file(file, folder, allowed, model);
+    }
+    for (std::string& note : folder.take_notes()) {
+        add_note(model.notes, std::move(note));
     }
     for (const TomlTable& object : table.tables("object")) {
         order_object(object, model);

@@ -107,7 +107,7 @@ TEST(Toml, MistakesAreNamedWithTheirPlace) {
         {"[light]\nkind = \"spot\"\n", "written [[light]]"},
         {"[[path]]\nname = \"p\"\n", "at least one [[path.key]]"},
         {"[[file]]\npath = \"b.obj\"\n", "no such file"},
-        {"[[file]]\npath = \"../a.obj\"\n", "outside the model's folder"},
+        {"[[file]]\npath = \"../b.obj\"\n", "outside the model's folder"},
         {"[[file]]\npath = \"s.toml\"\n", "files of type '.toml' are not read"},
         {"[[file]]\n", "not a file name"},
         {"[[file]\n", "line 1"}};

@@ -27,16 +27,18 @@ std::string box(Corner low, Corner high, int first = 1) {
 
 // A floor plate of 8 x 8 with two boxes on it; `up` is the axis that the plate faces.
 std::string room(int up) {
-    return up == 2 ? box({-4, -4, -0.1}, {4, 4, 0}, 1) + box({-1, -1, 0}, {1, 1, 2}, 9) + box({2, 2, 0}, {2.5, 2.5, 1}, 17)
-                   : box({-4, -0.1, -4}, {4, 0, 4}, 1) + box({-1, 0, -1}, {1, 2, 1}, 9) +
-                         box({2, 0, -2.5}, {2.5, 1, -2}, 17);
+    return up == 2
+               ? box({-4, -4, -0.1}, {4, 4, 0}, 1) + box({-1, -1, 0}, {1, 1, 2}, 9) + box({2, 2, 0}, {2.5, 2.5, 1}, 17)
+               : box({-4, -0.1, -4}, {4, 0, 4}, 1) + box({-1, 0, -1}, {1, 2, 1}, 9) +
+                     box({2, 0, -2.5}, {2.5, 1, -2}, 17);
 }
 
 // A cone on its flat foot.
 std::string cone(int up) {
     std::string text;
     const auto vertex = [&](double east, double north, double height) {
-        text += up == 2 ? fmt::format("v {} {} {}\n", east, north, height) : fmt::format("v {} {} {}\n", east, height, -north);
+        text += up == 2 ? fmt::format("v {} {} {}\n", east, north, height)
+                        : fmt::format("v {} {} {}\n", east, height, -north);
     };
     constexpr int sides = 24;
     for (int i = 0; i < sides; ++i) {
@@ -53,8 +55,8 @@ std::string cone(int up) {
 
 TEST(Upright, AModelOnItsSideIsPointedOut) {
     const TempFolder folder;
-    EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", room(2))), "lies on its side"));
-    EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", room(1))), "lies on its side"));
+    EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", room(2))), "lie on its side"));
+    EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", room(1))), "lie on its side"));
     EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", room(2))), "--up z"));
     // A triangle, a wall and a box say nothing about where their up is.
     EXPECT_FALSE(has_note(load_scene(folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "side"));
@@ -64,8 +66,8 @@ TEST(Upright, AModelOnItsSideIsPointedOut) {
 
 TEST(Upright, AFlatFootSaysWhereAModelStands) {
     const TempFolder folder;
-    EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", cone(2))), "lies on its side"));
-    EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", cone(1))), "lies on its side"));
+    EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", cone(2))), "lie on its side"));
+    EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", cone(1))), "lie on its side"));
 }
 
 TEST(Upright, ItIsStoodUpWhereAskedFor) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/scene/upright.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gn {
+namespace {
+
+/// Of the model's size: how far from its end along an axis a floor may lie, and a flat foot.
+constexpr double floor_share = 0.01, foot_share = 0.002;
+/// Of the footprint: a floor covers more than half; a foot may be four legs, and less than a hundredth is none.
+constexpr double floor_area = 0.5, foot_area = 0.05, no_foot_area = 0.01;
+/// What is flatter than this is a wall, a card or a relief, and might hang anywhere.
+constexpr double least_height = 0.1;
+
+struct Bounds {
+    dvec3 min{std::numeric_limits<double>::max()}, max{std::numeric_limits<double>::lowest()};
+};
+
+/// Areas of a model's faces at its ends along one axis, in footprints.
+struct Ends {
+    double floor = 0, foot = 0, top = 0;
+};
+
+template <class Visit>
+void visit_triangles(const Model& model, const Visit& visit) {
+    for (const Instance& instance : model.instances) {
+        const Mesh& mesh = model.meshes[instance.mesh];
+        const double turned = glm::determinant(glm::dmat3(instance.ws_from_os)) < 0.0 ? -1.0 : 1.0;
+        for (const uvec3 t : mesh.triangles) {
+            std::array<dvec3, 3> corners{};
+            bool good = true;
+            for (int i = 0; i < 3; ++i) {
+                good = good && t[i] < mesh.positions_os.size();
+                corners[static_cast<std::size_t>(i)] =
+                    good ? dvec3(instance.ws_from_os * dvec4(mesh.positions_os[t[i]], 1.0)) : dvec3(0.0);
+            }
+            const dvec3 area = 0.5 * turned * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+            if (good && std::isfinite(glm::dot(area, area))) {
+                visit(corners, area);
+            }
+        }
+    }
+}
+
+Ends ends_along(const Model& model, const Bounds& bounds, int axis) {
+    const dvec3 extent = bounds.max - bounds.min;
+    const double size = glm::length(extent);
+    Ends ends;
+    visit_triangles(model, [&](const std::array<dvec3, 3>& p, dvec3 area) {
+        const double low = std::min({p[0][axis], p[1][axis], p[2][axis]}) - bounds.min[axis];
+        const double high = std::max({p[0][axis], p[1][axis], p[2][axis]}) - bounds.min[axis];
+        ends.floor += high <= floor_share * size ? std::max(area[axis], 0.0) : 0.0;
+        ends.foot += high <= foot_share * size ? std::max(-area[axis], 0.0) : 0.0;
+        ends.top += low >= extent[axis] - foot_share * size ? std::max(area[axis], 0.0) : 0.0;
+    });
+    const double footprint = axis == 1 ? extent.x * extent.z : extent.x * extent.y;
+    return {ends.floor / footprint, ends.foot / footprint, ends.top / footprint};
+}
+
+}  // namespace
+
+dmat4 y_up_from_z_up() {
+    return {dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 0, 0, 1)};
+}
+
+bool lies_on_its_side(const Model& model) {
+    Bounds bounds;
+    visit_triangles(model, [&](const std::array<dvec3, 3>& p, dvec3) {
+        for (const dvec3& corner : p) {
+            bounds.min = glm::min(bounds.min, corner);
+            bounds.max = glm::max(bounds.max, corner);
+        }
+    });
+    const dvec3 extent = bounds.max - bounds.min;
+    if (!(extent.x > 0 && extent.y > 0 && extent.z > least_height * std::max(extent.x, extent.y))) {
+        return false;
+    }
+    const Ends y = ends_along(model, bounds, 1), z = ends_along(model, bounds, 2);
+    const bool floor = z.floor > floor_area && y.floor <= floor_area;
+    const bool foot = z.foot > foot_area && z.top < 0.5 * z.foot && y.foot < no_foot_area && y.floor < no_foot_area;
+    return floor || foot;
+}
+
+void note_side(Model& model) {
+    if (model.lights.empty() && model.cameras.empty() && lies_on_its_side(model)) {
+        add_note(model.notes,
+                 "The model seems to lie on its side: it stands on a plane of its least z and on none of its least y; --up z, "
+                 "or up = \"z\" in a .toml scene, stands it up.");
+    }
+}
+
+}  // namespace gn
