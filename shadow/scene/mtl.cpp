@@ -2,9 +2,11 @@
 #include "shadow/scene/mtl.h"
 
 #include "base/error.h"
+#include "shadow/scene/coverage.h"
 #include "shadow/scene/text.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gn {
 
@@ -13,8 +15,11 @@ struct MaterialLibrary::Entry {
     std::string name;
     Material material;
     std::string color_map, alpha_map;
-    bool clamp = false;
-    bool dissolve_given = false;  ///< by `d`, which goes before `Tr` wherever it stands
+    MapPlacement placed;
+    bool dissolve_given = false;      ///< by `d`, which goes before `Tr` wherever it stands
+    std::vector<std::string> unread;  ///< statements that change what casts
+
+    void take(std::string_view word, std::string_view line);
 };
 
 namespace {
@@ -35,7 +40,7 @@ vec3 color(std::string_view line, float most) {
 }
 
 // A map statement: options with their arguments, then a file name that may hold spaces.
-std::string map_name(std::string_view line, bool& clamp) {
+std::string map_name(std::string_view line, MapPlacement& placed) {
     static const std::map<std::string, int, std::less<>> arguments{
         {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1}, {"-bm", 1}, {"-cc", 1}, {"-clamp", 1}, {"-imfchan", 1},
         {"-mm", 2},     {"-texres", 1}, {"-type", 1},  {"-o", 3},  {"-s", 3},  {"-t", 3}};
@@ -48,33 +53,33 @@ std::string map_name(std::string_view line, bool& clamp) {
         for (int i = 0; i < option->second; ++i) {
             std::string_view after = rest;
             const std::string_view argument = take_word(after);
+            const std::optional<double> value = leading_number(argument);
             // Offsets and scales may have one to three numbers.
-            if (i > 0 && option->second == 3 && !leading_number(argument)) {
+            if (i > 0 && option->second == 3 && !value) {
                 break;
             }
-            clamp = option->first == "-clamp" ? argument == "on" : clamp;
+            if (i < 2 && value && (option->first == "-s" || option->first == "-o")) {
+                (option->first == "-s" ? placed.scale : placed.offset)[i] = static_cast<float>(*value);
+            }
+            placed.clamp = option->first == "-clamp" ? argument == "on" : placed.clamp;
             rest = after;
         }
         line = rest;
     }
 }
 
-// Coverage from a map_d: its alpha where it has any, else its brightness.
-void merge_alpha(Image8& base, const Image8& mask) {
-    bool has_alpha = false;
-    for (std::size_t i = 3; i < mask.rgba.size(); i += 4) {
-        has_alpha = has_alpha || mask.rgba[i] != 255;
-    }
-    for (int y = 0; y < base.height; ++y) {
-        for (int x = 0; x < base.width; ++x) {
-            const auto mx = static_cast<std::size_t>(static_cast<std::int64_t>(x) * mask.width / base.width);
-            const auto my = static_cast<std::size_t>(static_cast<std::int64_t>(y) * mask.height / base.height);
-            const std::uint8_t* texel = &mask.rgba[4 * (my * static_cast<std::size_t>(mask.width) + mx)];
-            const auto at =
-                4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(base.width) + static_cast<std::size_t>(x));
-            base.rgba[at + 3] = has_alpha ? texel[3] : std::max({texel[0], texel[1], texel[2]});
-        }
-    }
+std::string lower(std::string_view word) {
+    std::string text(word);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
+// What would change which light goes where, and is not read; the rest only changes how a surface looks.
+bool changes_shadows(const std::string& key) {
+    static constexpr std::array<std::string_view, 6> keys{"tf",     "disp",        "map_disp",
+                                                          "map_tr", "map_opacity", "map_alpha"};
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
 }  // namespace
@@ -119,37 +124,47 @@ void MaterialLibrary::read_file_named(const std::string& name) {
     std::string_view line;
     while (lines.next(line)) {
         const std::string_view key = take_word(line);
-        Material& m = entry.material;
-        if (key == "newmtl") {
+        if (lower(key) == "newmtl") {
             finish(entry);
             entry = Entry{};
             entry.name = std::string(trimmed(line));
             entry.material.name = clean_text(entry.name);
-        } else if (key == "Kd") {
-            m.base_color = vec4(color(line, 1.0F), m.base_color.w);
-        } else if (key == "Ke") {
-            m.emissive = color(line, 1e9F);
-        } else if (key == "d") {
-            std::string_view rest = line;
-            line = take_word(rest) == "-halo" ? rest : line;
-            m.base_color.w = number_or(line, 1.0F, 0.0F, 1.0F);
-            entry.dissolve_given = true;
-        } else if (key == "Tr" && !entry.dissolve_given) {
-            m.base_color.w = 1.0F - number_or(line, 0.0F, 0.0F, 1.0F);
-        } else if (key == "Ns") {
-            // The width of a Phong lobe as GGX roughness: alpha^2 = 2 / (Ns + 2), alpha = roughness^2.
-            m.roughness = std::pow(2.0F / (number_or(line, 10.0F, 0.0F, 1e5F) + 2.0F), 0.25F);
-        } else if (key == "Pr") {
-            m.roughness = number_or(line, m.roughness, 0.0F, 1.0F);
-        } else if (key == "Pm") {
-            m.metallic = number_or(line, m.metallic, 0.0F, 1.0F);
-        } else if (key == "map_Kd") {
-            entry.color_map = map_name(line, entry.clamp);
-        } else if (key == "map_d") {
-            entry.alpha_map = map_name(line, entry.clamp);
+        } else {
+            entry.take(key, line);
         }
     }
     finish(entry);
+}
+
+void MaterialLibrary::Entry::take(std::string_view word, std::string_view line) {
+    // Letter case is forgiven: exporters and hands differ.
+    const std::string key = lower(word);
+    Material& m = material;
+    if (key == "kd") {
+        m.base_color = vec4(color(line, 1.0F), m.base_color.w);
+    } else if (key == "ke") {
+        m.emissive = color(line, 1e9F);
+    } else if (key == "d") {
+        std::string_view rest = line;
+        line = take_word(rest) == "-halo" ? rest : line;
+        m.base_color.w = number_or(line, 1.0F, 0.0F, 1.0F);
+        dissolve_given = true;
+    } else if (key == "tr" && !dissolve_given) {
+        m.base_color.w = 1.0F - number_or(line, 0.0F, 0.0F, 1.0F);
+    } else if (key == "ns") {
+        // The width of a Phong lobe as GGX roughness: alpha^2 = 2 / (Ns + 2), alpha = roughness^2.
+        m.roughness = std::pow(2.0F / (number_or(line, 10.0F, 0.0F, 1e5F) + 2.0F), 0.25F);
+    } else if (key == "pr") {
+        m.roughness = number_or(line, m.roughness, 0.0F, 1.0F);
+    } else if (key == "pm") {
+        m.metallic = number_or(line, m.metallic, 0.0F, 1.0F);
+    } else if (key == "map_kd") {
+        color_map = map_name(line, placed);
+    } else if (key == "map_d") {
+        alpha_map = map_name(line, placed);
+    } else if (changes_shadows(key)) {
+        unread.emplace_back(clean_text(word));
+    }
 }
 
 void MaterialLibrary::finish(const Entry& entry) {
@@ -166,7 +181,16 @@ void MaterialLibrary::finish(const Entry& entry) {
     if (material.base_color_texture < 0 && !entry.alpha_map.empty()) {
         note_lost_mask(model_.notes, material.name);
     }
-    const bool masked = material.base_color_texture >= 0 && !entry.alpha_map.empty();
+    bool masked = material.base_color_texture >= 0 && !entry.alpha_map.empty();
+    if (material.base_color_texture >= 0 && !masked) {
+        masked = mask_of_color(model_.textures[static_cast<std::size_t>(material.base_color_texture)].image,
+                               material.name, "map_d", "map_Kd", model_.notes);
+    }
+    if (!entry.unread.empty()) {
+        add_note(model_.notes, fmt::format("Material '{}': {} {} not read.", material.name,
+                                           fmt::join(entry.unread, ", "), entry.unread.size() == 1 ? "is" : "are"));
+    }
+    placements_[static_cast<int>(model_.materials.size())] = entry.placed;
     material.alpha_mode = masked                         ? AlphaMode::mask
                           : material.base_color.w < 1.0F ? AlphaMode::blend
                                                          : AlphaMode::opaque;
@@ -192,7 +216,8 @@ std::optional<Image8> MaterialLibrary::load_image(const std::string& name) {
 }
 
 int MaterialLibrary::load_texture(const Entry& entry) {
-    const std::string key = entry.color_map + '\n' + entry.alpha_map + (entry.clamp ? "\nclamp" : "") + '\n' + beside_.string();
+    const std::string key =
+        entry.color_map + '\n' + entry.alpha_map + (entry.placed.clamp ? "\nclamp" : "") + '\n' + beside_.string();
     const auto known = textures_.find(key);
     if (known != textures_.end()) {
         return known->second;
@@ -211,10 +236,15 @@ int MaterialLibrary::load_texture(const Entry& entry) {
     if (image) {
         index = static_cast<int>(model_.textures.size());
         const std::string& name = entry.color_map.empty() ? entry.alpha_map : entry.color_map;
-        model_.textures.push_back({clean_text(name), std::move(*image), !entry.clamp, !entry.clamp});
+        model_.textures.push_back({clean_text(name), std::move(*image), !entry.placed.clamp, !entry.placed.clamp});
     }
     textures_[key] = index;
     return index;
+}
+
+MapPlacement MaterialLibrary::placement(int material) const {
+    const auto known = placements_.find(material);
+    return known != placements_.end() ? known->second : MapPlacement{};
 }
 
 int MaterialLibrary::find(const std::string& name) {

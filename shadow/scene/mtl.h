@@ -9,6 +9,12 @@
 
 namespace gn {
 
+/// How a material's pictures lie on its texture coordinates: t = scale * (u, v) + offset, v upwards.
+struct MapPlacement {
+    vec2 scale{1.0F}, offset{0.0F};
+    bool clamp = false;
+};
+
 /// Collects materials and textures into a model. What cannot be read becomes a note, never an Error.
 class MaterialLibrary {
   public:
@@ -17,6 +23,7 @@ class MaterialLibrary {
     void read(std::string_view names);
     /// The material's index; a grey one where the name is unknown.
     int find(const std::string& name);
+    [[nodiscard]] MapPlacement placement(int material) const;
 
   private:
     struct Entry;
@@ -28,6 +35,7 @@ class MaterialLibrary {
     const Folder& folder_;
     Model& model_;
     std::filesystem::path beside_;  ///< the folder of the library that is being read
+    std::map<int, MapPlacement> placements_;
     std::map<std::string, int, std::less<>> materials_;
     std::map<std::string, int> textures_;
     std::map<std::string, bool> read_;

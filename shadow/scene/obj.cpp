@@ -49,7 +49,8 @@ struct ObjFile {
     std::vector<Face> faces;
     std::vector<std::pair<std::string, std::string>> groups;  // object, material
     std::vector<std::string> libraries;
-    std::size_t odd_numbers = 0, lines_and_points = 0;
+    std::size_t odd_numbers = 0, lines_and_points = 0, free_forms = 0, calls = 0, colored = 0, not_understood = 0;
+    std::string first_not_understood;
 };
 
 class Parser {
@@ -69,6 +70,7 @@ class Parser {
         const std::string_view key = take_word(line);
         if (key == "v") {
             file_.positions.push_back(read3(line));
+            note_color(line);
         } else if (key == "vn") {
             file_.normals.emplace_back(read3(line));
         } else if (key == "vt") {
@@ -87,7 +89,33 @@ class Parser {
             file_.libraries.emplace_back(trimmed(line));
         } else if (key == "l" || key == "p") {
             ++file_.lines_and_points;
+        } else if (is_one_of(key, free_forms)) {
+            ++file_.free_forms;
+        } else if (key == "call" || key == "csh") {
+            ++file_.calls;
+        } else if (!key.empty() && key.front() != '#' && !is_one_of(key, without_triangles)) {
+            file_.first_not_understood = file_.not_understood++ == 0 ? clean_text(key) : file_.first_not_understood;
         }
+    }
+
+    // Curves and surfaces; what describes, joins and shows them, and what only concerns other programs.
+    static constexpr std::array<std::string_view, 7> free_forms{"curv", "curv2", "surf", "bzp", "bsp", "cdc", "res"};
+    static constexpr std::array<std::string_view, 25> without_triangles{
+        "vp",     "cstype",     "deg",       "bmat",     "step",  "parm",     "trim", "hole", "scrv",
+        "sp",     "end",        "con",       "s",        "mg",    "bevel",    "cdp",  "lod",  "usemap",
+        "maplib", "shadow_obj", "trace_obj", "c_interp", "ctech", "d_interp", "stech"};
+    template <std::size_t Count>
+    static bool is_one_of(std::string_view key, const std::array<std::string_view, Count>& keys) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
+    }
+
+    // A fourth number is a weight; three more than the point are a colour.
+    void note_color(std::string_view line) {
+        int numbers = 0;
+        for (std::string_view word = take_word(line); !word.empty() && leading_number(word); word = take_word(line)) {
+            ++numbers;
+        }
+        file_.colored += numbers >= 6 ? 1U : 0U;
     }
 
     double read1(std::string_view& line) {
@@ -121,9 +149,13 @@ class Parser {
         };
         Corner corner;
         corner.v = parse_index(part(), file_.positions.size(), -2);
-        corner.vt = parse_index(part(), file_.uvs.size(), -1);
-        corner.vn = parse_index(part(), file_.normals.size(), -1);
+        corner.vt = parse_optional(part(), file_.uvs.size());
+        corner.vn = parse_optional(part(), file_.normals.size());
         return corner;
+    }
+
+    static std::int64_t parse_optional(std::string_view text, std::size_t so_far) {
+        return text.empty() ? -1 : parse_index(text, so_far, -2);
     }
 
     // From 1; negative ones count back from the last element so far.
@@ -164,6 +196,7 @@ class MeshMaker {
     MeshMaker(const ObjFile& file, Model& model) : file_(file), model_(model) {
         by_group_.resize(file.groups.size());
         model.meshes.resize(file.groups.size());
+        placed_.resize(file.groups.size());
     }
 
     void add(const Face& face) {
@@ -194,20 +227,41 @@ class MeshMaker {
     }
 
     [[nodiscard]] std::size_t dropped() const { return dropped_; }
+    [[nodiscard]] std::size_t missing_uvs() const { return missing_uvs_; }
+    [[nodiscard]] std::size_t missing_normals() const { return missing_normals_; }
+
+    /// The maps of a group's material lie on its coordinates like this.
+    void place_maps(std::size_t group, const MapPlacement& placed) { placed_.at(group) = placed; }
 
   private:
+    // Coordinates of the file go up, ours go down: v = 1 - (scale (1 - v) + offset).
+    [[nodiscard]] vec2 place(std::uint32_t group, vec2 uv) const {
+        const MapPlacement& placed = placed_[group];
+        return placed.scale == vec2(1.0F) && placed.offset == vec2(0.0F)
+                   ? uv
+                   : vec2(placed.scale.x * uv.x + placed.offset.x,
+                          1.0F - placed.scale.y * (1.0F - uv.y) - placed.offset.y);
+    }
+
     std::uint32_t vertex(std::uint32_t group, Mesh& mesh, Corner corner) {
         const auto exists = [](std::int64_t index, std::size_t count) {
             return index >= 0 && index < static_cast<std::int64_t>(count);
         };
-        corner.vt = exists(corner.vt, file_.uvs.size()) ? corner.vt : -1;
-        corner.vn = exists(corner.vn, file_.normals.size()) ? corner.vn : -1;
+        if (corner.vt != -1 && !exists(corner.vt, file_.uvs.size())) {
+            corner.vt = -1;
+            ++missing_uvs_;
+        }
+        if (corner.vn != -1 && !exists(corner.vn, file_.normals.size())) {
+            corner.vn = -1;
+            ++missing_normals_;
+        }
         const auto next = static_cast<std::uint32_t>(mesh.positions_os.size());
         const auto [found, added] = by_group_[group].emplace(corner, next);
         if (added) {
             mesh.positions_os.push_back(file_.positions[static_cast<std::size_t>(corner.v)]);
             mesh.normals_os.push_back(corner.vn >= 0 ? file_.normals[static_cast<std::size_t>(corner.vn)] : vec3(0.0F));
-            mesh.uvs.push_back(corner.vt >= 0 ? file_.uvs[static_cast<std::size_t>(corner.vt)] : vec2(0.0F));
+            mesh.uvs.push_back(corner.vt >= 0 ? place(group, file_.uvs[static_cast<std::size_t>(corner.vt)])
+                                              : vec2(0.0F));
         }
         return found->second;
     }
@@ -215,18 +269,36 @@ class MeshMaker {
     const ObjFile& file_;
     Model& model_;
     std::vector<std::unordered_map<Corner, std::uint32_t, CornerHash>> by_group_;
-    std::size_t dropped_ = 0, triangles_ = 0;
+    std::vector<MapPlacement> placed_;
+    std::size_t dropped_ = 0, triangles_ = 0, missing_uvs_ = 0, missing_normals_ = 0;
 };
 
-void note_oddities(const ObjFile& file, std::size_t dropped, std::vector<std::string>& notes) {
-    const std::array<std::pair<std::size_t, const char*>, 3> counts{
-        {{dropped, "Dropped {} faces with vertices that are not there or fewer than 3 corners."},
-         {file.odd_numbers, "Read {} coordinates that are no numbers as 0."},
-         {file.lines_and_points, "Skipped {} lines and points: only faces cast shadows."}}};
-    for (const auto& [count, sentence] : counts) {
-        if (count > 0) {
-            add_note(notes, fmt::format(fmt::runtime(sentence), count));
-        }
+void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many) {
+    if (count > 0) {
+        add_note(notes, count == 1 ? one : fmt::format(fmt::runtime(many), count));
+    }
+}
+
+void note_oddities(const ObjFile& file, const MeshMaker& maker, std::vector<std::string>& notes) {
+    note_count(notes, maker.dropped(), "Dropped 1 face with vertices that are not there or fewer than 3 corners.",
+               "Dropped {} faces with vertices that are not there or fewer than 3 corners.");
+    note_count(notes, file.odd_numbers, "Read 1 coordinate that is no number as 0.",
+               "Read {} coordinates that are no numbers as 0.");
+    note_count(notes, maker.missing_uvs(), "Read 1 texture coordinate that is not there as (0, 0).",
+               "Read {} texture coordinates that are not there as (0, 0).");
+    note_count(notes, maker.missing_normals(), "Made 1 normal that is not there from its faces.",
+               "Made {} normals that are not there from their faces.");
+    note_count(notes, file.lines_and_points, "Skipped 1 line or point: only faces cast shadows.",
+               "Skipped {} lines and points: only faces cast shadows.");
+    note_count(notes, file.free_forms, "Skipped 1 free-form curve or surface: only polygons are read.",
+               "Skipped {} free-form curves and surfaces: only polygons are read.");
+    note_count(notes, file.calls, "Did not read 1 other file that it calls.",
+               "Did not read {} other files that it calls.");
+    note_count(notes, file.colored, "1 vertex has a colour, which is not read.",
+               "{} vertices have colours, which are not read.");
+    if (file.not_understood > 0) {
+        add_note(notes, fmt::format("Did not understand {} line{}, the first of them '{}'.", file.not_understood,
+                                    file.not_understood == 1 ? "" : "s", file.first_not_understood));
     }
 }
 
@@ -253,11 +325,12 @@ Model load_obj(const std::filesystem::path& path, const Assets& assets) {
     for (std::size_t g = 0; g < file.groups.size(); ++g) {
         model.meshes[g].name = clean_text(file.groups[g].first);
         model.meshes[g].material = library.find(file.groups[g].second);
+        maker.place_maps(g, library.placement(model.meshes[g].material));
     }
     for (const Face& face : file.faces) {
         maker.add(face);
     }
-    note_oddities(file, maker.dropped(), model.notes);
+    note_oddities(file, maker, model.notes);
     for (std::string& note : folder.take_notes()) {
         add_note(model.notes, std::move(note));
     }
