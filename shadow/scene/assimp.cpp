@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Formats other than glTF and OBJ, through Assimp, whose file access is kept inside the model's folder.
+// Formats other than glTF and OBJ, through Assimp, whose file access is kept inside the folders that may be read.
 #include "base/error.h"
+#include "shadow/scene/assimp_lights.h"
+#include "shadow/scene/coverage.h"
 #include "shadow/scene/files.h"
 #include "shadow/scene/model.h"
 
@@ -60,20 +62,20 @@ class FolderIo : public Assimp::IOSystem {
     std::filesystem::path model_;
 };
 
-dmat4 from_assimp(const aiMatrix4x4& m) {
-    return glm::transpose(
-        dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
-}
-
 vec3 from_assimp(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
 
-Mesh convert_mesh(const aiMesh& data) {
+struct LeftOut {
+    std::size_t lines_and_points = 0, faces = 0, skinned = 0, morphed = 0;
+};
+
+Mesh convert_mesh(const aiMesh& data, LeftOut& left_out) {
     Mesh mesh;
     mesh.name = clean_text(data.mName.C_Str());
     mesh.material = static_cast<int>(data.mMaterialIndex);
     if ((data.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0U || data.mVertices == nullptr) {
+        left_out.lines_and_points += data.mNumFaces;
         return mesh;
     }
     for (unsigned v = 0; v < data.mNumVertices; ++v) {
@@ -84,17 +86,100 @@ Mesh convert_mesh(const aiMesh& data) {
     }
     for (unsigned f = 0; f < data.mNumFaces; ++f) {
         const aiFace& face = data.mFaces[f];
-        if (face.mNumIndices == 3) {
-            const uvec3 t(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-            if (std::max({t.x, t.y, t.z}) < data.mNumVertices) {
-                mesh.triangles.push_back(t);
-            }
+        const uvec3 t =
+            face.mNumIndices == 3 ? uvec3(face.mIndices[0], face.mIndices[1], face.mIndices[2]) : uvec3(~0U);
+        if (std::max({t.x, t.y, t.z}) < data.mNumVertices) {
+            mesh.triangles.push_back(t);
+        } else {
+            ++left_out.faces;
         }
     }
+    left_out.skinned += data.HasBones() ? 1U : 0U;
+    left_out.morphed += data.mNumAnimMeshes > 0 ? 1U : 0U;
     return mesh;
 }
 
-Material convert_material(const aiMaterial& data, const Folder& folder, Model& model) {
+// The pixels of a texture that lies inside the file: a whole PNG or JPEG, or bare texels.
+Image8 embedded_image(const aiTexture& data, const std::string& shown) {
+    if (data.mHeight == 0) {
+        return decode_image({reinterpret_cast<const std::byte*>(data.pcData), data.mWidth}, fmt::format("'{}'", shown));
+    }
+    constexpr unsigned widest = 16384;
+    if (data.mWidth == 0 || data.mWidth > widest || data.mHeight > widest) {
+        fail("'{}' has {} x {} texels; at most {} x {} are read", shown, data.mWidth, data.mHeight, widest, widest);
+    }
+    Image8 image{static_cast<int>(data.mWidth), static_cast<int>(data.mHeight), {}};
+    const std::size_t count = std::size_t{data.mWidth} * data.mHeight;
+    image.rgba.reserve(4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const aiTexel& texel = data.pcData[i];
+        image.rgba.insert(image.rgba.end(), {texel.r, texel.g, texel.b, texel.a});
+    }
+    return image;
+}
+
+// What is needed to read a material's pictures.
+struct Source {
+    const aiScene& data;
+    const Folder& folder;
+    Model& model;
+};
+
+std::optional<Image8> load_picture(const aiMaterial& material, aiTextureType type, const Source& source,
+                                   std::string& name) {
+    aiString file;
+    if (material.GetTexture(type, 0, &file) != aiReturn_SUCCESS || file.length == 0) {
+        return std::nullopt;
+    }
+    name = clean_text(file.C_Str());
+    try {
+        if (const aiTexture* inside = source.data.GetEmbeddedTexture(file.C_Str())) {
+            return embedded_image(*inside, name);
+        }
+        return decode_image(read_file(source.folder.resolve(file.C_Str())), fmt::format("'{}'", name));
+    } catch (const Error& problem) {
+        add_note(source.model.notes, fmt::format("Texture ignored: {}.", problem.what()));
+        return std::nullopt;
+    }
+}
+
+bool repeats(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+    int mode = aiTextureMapMode_Wrap;
+    material.Get(key, type, index, mode);
+    return mode == aiTextureMapMode_Wrap || mode == aiTextureMapMode_Mirror;
+}
+
+// The base colour's picture, with its coverage; how both count as a mask.
+void load_pictures(const aiMaterial& data, const Source& source, Material& material) {
+    std::string color_name, mask_name;
+    std::optional<Image8> image = load_picture(data, aiTextureType_DIFFUSE, source, color_name);
+    const std::optional<Image8> mask = load_picture(data, aiTextureType_OPACITY, source, mask_name);
+    if (!mask && !mask_name.empty()) {
+        note_lost_mask(source.model.notes, material.name);
+    }
+    if (image) {
+        material.base_color = vec4(1.0F, 1.0F, 1.0F, material.base_color.w);
+        const bool holes =
+            !mask && mask_of_color(*image, material.name, "opacity map", "diffuse map", source.model.notes);
+        material.alpha_mode = holes ? AlphaMode::mask : material.alpha_mode;
+    } else if (mask) {
+        // White where only coverage is given.
+        image = Image8{mask->width, mask->height, std::vector<std::uint8_t>(mask->rgba.size(), 255)};
+    }
+    if (!image) {
+        return;
+    }
+    if (mask) {
+        merge_alpha(*image, *mask);
+        material.alpha_mode = AlphaMode::mask;
+    }
+    material.base_color_texture = static_cast<int>(source.model.textures.size());
+    source.model.textures.push_back({color_name.empty() ? mask_name : color_name, std::move(*image),
+                                     repeats(data, AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0)),
+                                     repeats(data, AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0))});
+}
+
+Material convert_material(const aiMaterial& data, const Source& source) {
     Material material;
     aiString name;
     material.name = data.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS ? clean_text(name.C_Str()) : "";
@@ -105,17 +190,7 @@ Material convert_material(const aiMaterial& data, const Folder& folder, Model& m
     material.base_color = glm::clamp(vec4(color.r, color.g, color.b, opacity), vec4(0.0F), vec4(1.0F));
     material.alpha_mode = material.base_color.w < 1.0F ? AlphaMode::blend : AlphaMode::opaque;
 
-    aiString file;
-    if (data.GetTexture(aiTextureType_DIFFUSE, 0, &file) == aiReturn_SUCCESS && file.length > 0) {
-        try {
-            Image8 image = decode_image(read_file(folder.resolve(file.C_Str())), clean_text(file.C_Str()));
-            material.base_color_texture = static_cast<int>(model.textures.size());
-            material.base_color = vec4(1.0F, 1.0F, 1.0F, material.base_color.w);
-            model.textures.push_back({clean_text(file.C_Str()), std::move(image), true, true});
-        } catch (const Error& problem) {
-            add_note(model.notes, fmt::format("Texture ignored: {}.", problem.what()));
-        }
-    }
+    load_pictures(data, source, material);
     return material;
 }
 
@@ -130,7 +205,7 @@ void place_nodes(const aiNode* root, Model& model) {
     while (!stack.empty()) {
         const Pending pending = stack.back();
         stack.pop_back();
-        const dmat4 ws_from_node = pending.ws_from_parent * from_assimp(pending.node->mTransformation);
+        const dmat4 ws_from_node = pending.ws_from_parent * matrix_from_assimp(pending.node->mTransformation);
         for (unsigned i = 0; i < pending.node->mNumMeshes; ++i) {
             const std::size_t mesh = pending.node->mMeshes[i];
             if (mesh >= model.meshes.size() || model.meshes[mesh].triangles.empty()) {
@@ -148,6 +223,25 @@ void place_nodes(const aiNode* root, Model& model) {
     }
 }
 
+void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many) {
+    if (count > 0) {
+        add_note(notes, fmt::format("{} {}.", count, count == 1 ? one : many));
+    }
+}
+
+void note_left_out(const LeftOut& left_out, const aiScene& data, std::vector<std::string>& notes) {
+    note_count(notes, left_out.faces, "face with vertices that are not there is dropped",
+               "faces with vertices that are not there are dropped");
+    note_count(notes, left_out.lines_and_points, "line or point is skipped: only faces cast shadows",
+               "lines and points are skipped: only faces cast shadows");
+    note_count(notes, left_out.skinned, "mesh hangs on bones and stands as it was bound",
+               "meshes hang on bones and stand as they were bound");
+    note_count(notes, left_out.morphed, "mesh has other shapes, which are not read",
+               "meshes have other shapes, which are not read");
+    note_count(notes, data.mNumAnimations, "animation is not played: everything stands as at rest",
+               "animations are not played: everything stands as at rest");
+}
+
 }  // namespace
 
 Model load_assimp(const std::filesystem::path& path, const Assets& assets) {
@@ -156,7 +250,6 @@ Model load_assimp(const std::filesystem::path& path, const Assets& assets) {
     read_file(path, largest_file);
     Assimp::Importer importer;
     importer.SetIOHandler(new FolderIo(folder, path));
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* data = nullptr;
     try {
         data = importer.ReadFile(path.string(),
@@ -168,19 +261,24 @@ Model load_assimp(const std::filesystem::path& path, const Assets& assets) {
         fail("{}: cannot be read ({})", shown, clean_text(importer.GetErrorString()));
     }
 
+    // Materials first: meshes refer to them.
     Model model;
     for (unsigned i = 0; i < data->mNumMaterials; ++i) {
-        model.materials.push_back(convert_material(*data->mMaterials[i], folder, model));
+        model.materials.push_back(convert_material(*data->mMaterials[i], {*data, folder, model}));
     }
     if (model.materials.empty()) {
         model.materials.push_back({.name = "default"});
     }
+    LeftOut left_out;
     for (unsigned i = 0; i < data->mNumMeshes; ++i) {
-        model.meshes.push_back(convert_mesh(*data->mMeshes[i]));
+        model.meshes.push_back(convert_mesh(*data->mMeshes[i], left_out));
         const bool known = model.meshes.back().material < static_cast<int>(model.materials.size());
         model.meshes.back().material = known ? model.meshes.back().material : 0;
     }
     place_nodes(data->mRootNode, model);
+    place_assimp_lights(*data, model);
+    place_assimp_cameras(*data, model);
+    note_left_out(left_out, *data, model.notes);
     for (std::string& note : folder.take_notes()) {
         add_note(model.notes, std::move(note));
     }
