@@ -155,10 +155,7 @@ struct Parser {
     static void add_file_options(CLI::App* command, FileOptions& file, std::string& ground) {
         command->add_option("--ground", ground, ground_help);
         command->add_option("--up", file.up, up_help);
-        command->add_option("--assets", file.assets, assets_help)
-            ->type_name("DIR")
-            ->expected(1)
-            ->allow_extra_args(false);
+        command->add_option("--assets", file.assets, assets_help)->type_name("DIR")->allow_extra_args(false);
     }
 
     void add_render() {

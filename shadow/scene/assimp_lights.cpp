@@ -36,16 +36,13 @@ dvec3 turned(const dmat4& ws_from_node, dvec3 axis, dvec3 otherwise) {
 
 std::optional<std::uint32_t> kind_of(const aiLight& data) {
     switch (data.mType) {
-    case aiLightSource_DIRECTIONAL:
-        return GN_LIGHT_DIRECTIONAL;
-    case aiLightSource_POINT:
-        return GN_LIGHT_POINT;
-    case aiLightSource_SPOT:
-        return GN_LIGHT_SPOT;
-    case aiLightSource_AREA:
-        return data.mSize.x > 0.0F && data.mSize.y > 0.0F ? std::optional<std::uint32_t>(GN_LIGHT_RECTANGLE) : std::nullopt;
-    default:
-        return std::nullopt;
+        case aiLightSource_DIRECTIONAL: return GN_LIGHT_DIRECTIONAL;
+        case aiLightSource_POINT: return GN_LIGHT_POINT;
+        case aiLightSource_SPOT: return GN_LIGHT_SPOT;
+        case aiLightSource_AREA:
+            return data.mSize.x > 0.0F && data.mSize.y > 0.0F ? std::optional<std::uint32_t>(GN_LIGHT_RECTANGLE)
+                                                              : std::nullopt;
+        default: return std::nullopt;
     }
 }
 
@@ -66,7 +63,9 @@ float intensity_of(const aiLight& data, float brightest, std::vector<std::string
     const float k2 = data.mAttenuationQuadratic;
     const bool square = k2 > 0.0F && data.mAttenuationConstant == 0.0F && data.mAttenuationLinear == 0.0F;
     if (!square) {
-        add_note(notes, fmt::format("Light '{}' falls off by another law in its file than by the square of the distance.", name));
+        add_note(
+            notes,
+            fmt::format("Light '{}' falls off by another law in its file than by the square of the distance.", name));
     }
     return k2 > 0.0F ? brightest / k2 : brightest;
 }
@@ -105,14 +104,15 @@ void place_assimp_lights(const aiScene& data, Model& model) {
         // Intensities stand in the colours.
         const aiColor3D& color = from.mColorDiffuse;
         const float brightest = std::max({color.r, color.g, color.b, 0.0F});
-        shape.color = brightest > 0.0F ? vec4(color.r / brightest, color.g / brightest, color.b / brightest, 1.0F) : vec4(1.0F);
+        shape.color =
+            brightest > 0.0F ? vec4(color.r / brightest, color.g / brightest, color.b / brightest, 1.0F) : vec4(1.0F);
         shape.intensity = intensity_of(from, brightest, model.notes, name);
         const bool candela = shape.kind == GN_LIGHT_POINT || shape.kind == GN_LIGHT_SPOT;
-        add_note(model.notes,
-                 fmt::format("Light '{}' has no unit in such a file: its intensity counts as {:.4g} {}.", name, shape.intensity,
-                             candela                                ? "cd"
-                             : shape.kind == GN_LIGHT_DIRECTIONAL ? "lux"
-                                                                    : "cd/m^2"));
+        add_note(model.notes, fmt::format("Light '{}' has no unit in such a file: its intensity counts as {:.4g} {}.",
+                                          name, shape.intensity,
+                                          candela                              ? "cd"
+                                          : shape.kind == GN_LIGHT_DIRECTIONAL ? "lux"
+                                                                               : "cd/m^2"));
         model.lights.push_back(std::move(placed));
     }
 }
@@ -122,9 +122,8 @@ void place_assimp_cameras(const aiScene& data, Model& model) {
         const aiCamera& from = *data.mCameras[i];
         const std::string name = clean_text(from.mName.C_Str());
         const std::optional<dmat4> ws_from_here = ws_from_node(data, from.mName);
-        if (!ws_from_here || from.mOrthographicWidth > 0.0F) {
-            add_note(model.notes, fmt::format("Camera '{}' is left out: {}.", name,
-                                              ws_from_here ? "it is orthographic" : "no node carries it"));
+        if (!ws_from_here) {
+            add_note(model.notes, fmt::format("Camera '{}' is left out: no node carries it.", name));
             continue;
         }
         PlacedCamera placed;
@@ -132,11 +131,13 @@ void place_assimp_cameras(const aiScene& data, Model& model) {
         placed.position_ws = dvec3(*ws_from_here * dvec4(vector(from.mPosition), 1.0));
         placed.camera.forward_ws = vec3(turned(*ws_from_here, vector(from.mLookAt), dvec3(0, 0, -1)));
         placed.camera.up_ws = vec3(turned(*ws_from_here, vector(from.mUp), dvec3(0, 1, 0)));
-        // The whole horizontal angle; where no aspect is given, of a picture of 16 by 9.
+        // The whole horizontal angle, or half the width of a box; where no aspect is given, of a picture of 16 by 9.
         const float aspect = from.mAspect > 0.0F ? from.mAspect : 16.0F / 9.0F;
         placed.camera.yfov = 2.0F * std::atan(std::tan(0.5F * from.mHorizontalFOV) / aspect);
+        placed.camera.half_height = std::max(from.mOrthographicWidth, 0.0F) / aspect;
         // What Assimp fills in where a file says nothing is left to the scene.
-        const bool given = from.mClipPlaneNear != aiCamera{}.mClipPlaneNear || from.mClipPlaneFar != aiCamera{}.mClipPlaneFar;
+        const bool given =
+            from.mClipPlaneNear != aiCamera{}.mClipPlaneNear || from.mClipPlaneFar != aiCamera{}.mClipPlaneFar;
         placed.camera.near = given ? from.mClipPlaneNear : 0.0F;
         placed.camera.far = given ? from.mClipPlaneFar : 0.0F;
         model.cameras.push_back(std::move(placed));

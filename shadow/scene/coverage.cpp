@@ -53,8 +53,9 @@ bool mask_of_color(const Image8& image, const std::string& material, const char*
                    std::vector<std::string>& notes) {
     const AlphaUse use = alpha_use(image);
     if (use == AlphaUse::holes) {
-        add_note(notes, fmt::format("Material '{}' has no {}, and holes in the alpha of its {}: they are read as holes.",
-                                    material, coverage, color));
+        add_note(notes,
+                 fmt::format("Material '{}' has no {}, and holes in the alpha of its {}: they are read as holes.",
+                             material, coverage, color));
     } else if (use == AlphaUse::other) {
         add_note(notes, fmt::format("Material '{}' has no {}, and an alpha in its {} that is no mask: it is ignored.",
                                     material, coverage, color));

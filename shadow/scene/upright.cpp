@@ -87,7 +87,8 @@ bool lies_on_its_side(const Model& model) {
 void note_side(Model& model) {
     if (model.lights.empty() && model.cameras.empty() && lies_on_its_side(model)) {
         add_note(model.notes,
-                 "The model seems to lie on its side: it stands on a plane of its least z and on none of its least y; --up z, "
+                 "The model seems to lie on its side: it stands on a plane of its least z and on none of its least y; "
+                 "--up z, "
                  "or up = \"z\" in a .toml scene, stands it up.");
     }
 }
