@@ -9,7 +9,7 @@ namespace gn {
 /// x stays, z becomes y, y becomes -z.
 dmat4 y_up_from_z_up();
 
-/// Whether the model stands on its plane of least z and on nothing at its least y: a floor faces +z there, or a foot -z.
+/// Whether the model stands on its plane of least z and on nothing at its least y: a floor faces +z there, or feet stand apart.
 bool lies_on_its_side(const Model& model);
 
 /// Adds a note where it does and brings neither light nor camera, which would show what its maker saw as upright.

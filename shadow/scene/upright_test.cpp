@@ -64,8 +64,14 @@ TEST(Upright, AModelOnItsSideIsPointedOut) {
     EXPECT_FALSE(has_note(load_scene(folder.write("box.obj", box({-1, 0, -1}, {1, 3, 1}))), "side"));
 }
 
-TEST(Upright, AFlatFootSaysWhereAModelStands) {
+TEST(Upright, FeetSayWhereAModelStands) {
     const TempFolder folder;
+    // A pyramid on three points.
+    EXPECT_TRUE(
+        has_note(load_scene(folder.write("p.obj",
+                                         "v -1 -0.6 0\nv 1 -0.6 0\nv 0 1 0\nv 0 0 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nv 0 -1 "
+                                         "1\nf 1 5 2\n")),
+                 "lie on its side"));
     EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", cone(2))), "lie on its side"));
     EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", cone(1))), "lie on its side"));
 }
