@@ -67,7 +67,7 @@ vec3 from_assimp(const aiVector3D& v) {
 }
 
 struct LeftOut {
-    std::size_t lines_and_points = 0, faces = 0, skinned = 0, morphed = 0;
+    std::size_t lines_and_points = 0, faces = 0, skinned = 0, morphed = 0, colored = 0;
 };
 
 Mesh convert_mesh(const aiMesh& data, LeftOut& left_out) {
@@ -95,6 +95,7 @@ Mesh convert_mesh(const aiMesh& data, LeftOut& left_out) {
         }
     }
     left_out.skinned += data.HasBones() ? 1U : 0U;
+    left_out.colored += data.HasVertexColors(0) ? 1U : 0U;
     left_out.morphed += data.mNumAnimMeshes > 0 ? 1U : 0U;
     return mesh;
 }
@@ -238,6 +239,8 @@ void note_left_out(const LeftOut& left_out, const aiScene& data, std::vector<std
                "meshes hang on bones and stand as they were bound");
     note_count(notes, left_out.morphed, "mesh has other shapes, which are not read",
                "meshes have other shapes, which are not read");
+    note_count(notes, left_out.colored, "mesh has colours at its vertices, which are not read",
+               "meshes have colours at their vertices, which are not read");
     note_count(notes, data.mNumAnimations, "animation is not played: everything stands as at rest",
                "animations are not played: everything stands as at rest");
 }

@@ -128,5 +128,86 @@ TEST(Assimp, PicturesAreFoundAndTheirHolesAreSaid) {
     EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.objects.at(0).material)].alpha_mode, AlphaMode::mask);
 }
 
+// A triangle whose material wears a picture of two texels, white beside a hole, that lies inside the file.
+constexpr const char* with_picture_inside = R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+	FBXHeaderVersion: 1003
+	FBXVersion: 7400
+}
+Objects:  {
+	Geometry: 10, "Geometry::g", "Mesh" {
+		Vertices: *9 {
+			a: 0,0,0,1,0,0,0,1,0
+		}
+		PolygonVertexIndex: *3 {
+			a: 0,1,-3
+		}
+		LayerElementMaterial: 0 {
+			Version: 101
+			Name: ""
+			MappingInformationType: "AllSame"
+			ReferenceInformationType: "IndexToDirect"
+			Materials: *1 {
+				a: 0
+			}
+		}
+		Layer: 0 {
+			Version: 100
+			LayerElement:  {
+				Type: "LayerElementMaterial"
+				TypedIndex: 0
+			}
+		}
+	}
+	Model: 20, "Model::m", "Mesh" {
+		Version: 232
+	}
+	Material: 30, "Material::leaf", "" {
+		Version: 102
+	}
+	Texture: 40, "Texture::t", "" {
+		FileName: "C:\job\leaf.png"
+		RelativeFilename: "leaf.png"
+	}
+	Video: 50, "Video::v", "Clip" {
+		Type: "Clip"
+		FileName: "C:\job\leaf.png"
+		RelativeFilename: "leaf.png"
+		Content: , "{}"
+	}
+}
+Connections:  {
+	C: "OO",20,0
+	C: "OO",10,20
+	C: "OO",30,20
+	C: "OP",40,30, "DiffuseColor"
+	C: "OO",50,40
+}
+)";
+
+TEST(Assimp, PicturesInsideTheFileAreRead) {
+    const TempFolder folder;
+    Image image(2, 1, 4, 1.0F);
+    image.at(1, 0, 3) = 0.0F;
+    const std::vector<std::byte> png = encode_png(image);
+    std::string text = with_picture_inside;
+    text.replace(text.find("{}"), 2, base64({reinterpret_cast<const char*>(png.data()), png.size()}));
+    const Scene scene = load_scene(folder.write("a.fbx", text));
+    ASSERT_EQ(scene.textures.size(), 1U) << (scene.notes.empty() ? "" : scene.notes[0]);
+    EXPECT_EQ(scene.textures[0].image.width, 2);
+    EXPECT_EQ(scene.textures[0].image.rgba[7], 0);
+}
+
+TEST(Assimp, ColoursOfVerticesAreSaid) {
+    const TempFolder folder;
+    const Scene scene = load_scene(folder.write(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n"));
+    EXPECT_EQ(scene.triangles.size(), 1U);
+    EXPECT_TRUE(has_note(scene, "1 mesh has colours at its vertices"));
+}
+
 }  // namespace
 }  // namespace gn

@@ -57,7 +57,8 @@ struct Name {
 };
 
 Name split(std::string_view name) {
-    std::string portable(name);
+    const bool quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+    std::string portable(quoted ? name.substr(1, name.size() - 2) : name);
     std::replace(portable.begin(), portable.end(), '\\', '/');
     Name split;
     split.foreign =

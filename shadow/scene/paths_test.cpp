@@ -34,7 +34,8 @@ std::string error_with(const std::string& file, const LoadOptions& options) {
 TEST(Paths, SeparatorsOfEitherSystemAreTheFilesOwn) {
     const TempFolder folder;
     folder.write("model/Parts/Red.mtl", red);
-    for (const char* name : {"Parts/Red.mtl", "Parts\\Red.mtl", ".\\Parts\\Red.mtl", "Parts\\..\\Parts/Red.mtl"}) {
+    for (const char* name :
+         {"Parts/Red.mtl", "Parts\\Red.mtl", ".\\Parts\\Red.mtl", "Parts\\..\\Parts/Red.mtl", "\"Parts\\Red.mtl\""}) {
         const Scene scene = load_with(folder, name);
         EXPECT_TRUE(is_red(scene)) << name;
         EXPECT_TRUE(scene.notes.empty()) << name << ": " << notes_of(scene);
