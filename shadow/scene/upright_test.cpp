@@ -58,6 +58,11 @@ TEST(Upright, AModelOnItsSideIsPointedOut) {
     EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", room(2))), "lie on its side"));
     EXPECT_FALSE(has_note(load_scene(folder.write("y.obj", room(1))), "lie on its side"));
     EXPECT_TRUE(has_note(load_scene(folder.write("z.obj", room(2))), "--up z"));
+    // A floor is what looks up, whether or not it has an underside.
+    std::string open = room(2);
+    const std::string underside = "f 1 3 4 2\n";
+    open.erase(open.find(underside), underside.size());
+    EXPECT_TRUE(has_note(load_scene(folder.write("open.obj", open)), "lie on its side"));
     // A triangle, a wall and a box say nothing about where their up is.
     EXPECT_FALSE(has_note(load_scene(folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "side"));
     EXPECT_FALSE(has_note(load_scene(folder.write("wall.obj", box({-2, 0, -0.1}, {2, 3, 0.1}))), "side"));
