@@ -20,16 +20,19 @@ class LittleGltf {
         return static_cast<int>(materials_.size()) - 1;
     }
 
-    /// A node with a mesh of its own. `node` and `mesh` are further members, each with a comma before.
-    void add(const std::vector<vec3>& corners, int material, const std::string& node = "",
-             const std::string& mesh = "") {
+    /// A node with a mesh of its own. `node` and `mesh` are further members, each with a comma before; `colors` are the
+    /// corners' own.
+    void add(const std::vector<vec3>& corners, int material, const std::string& node = "", const std::string& mesh = "",
+             const std::vector<vec4>& colors = {}) {
         std::vector<float> xyz;
         for (const vec3& p : corners) {
             xyz.insert(xyz.end(), {p.x, p.y, p.z});
         }
         const int accessor = text_.add_points(xyz);
-        meshes_.push_back(fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{}}},"material":{}}}]{}}})",
-                                      accessor, material, mesh));
+        const std::string tint =
+            colors.empty() ? "" : fmt::format(R"(,"COLOR_0":{})", text_.add(colors, "VEC4", 5126, colors.size()));
+        meshes_.push_back(fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{}{}}},"material":{}}}]{}}})",
+                                      accessor, tint, material, mesh));
         nodes_.push_back(fmt::format(R"({{"mesh":{}{}}})", meshes_.size() - 1, node));
     }
 
