@@ -176,13 +176,18 @@ bool Occluders::transparent(std::uint32_t triangle, float u, float v) const {
     if (material.alpha_mode == AlphaMode::opaque) {
         return false;
     }
+    const uvec3 t = scene_.triangles[triangle];
+    const auto interpolate = [&](const auto& values) {
+        return (1.0F - u - v) * values[t.x] + u * values[t.y] + v * values[t.z];
+    };
     float alpha = material.base_color.a;
+    if (scene_.colors.size() == scene_.positions_ws.size()) {
+        alpha *= interpolate(scene_.colors).a;
+    }
     const auto texture = static_cast<std::size_t>(material.base_color_texture);
     if (material.base_color_texture >= 0 && texture < scene_.textures.size() &&
         scene_.uvs.size() == scene_.positions_ws.size()) {
-        const uvec3 t = scene_.triangles[triangle];
-        const vec2 uv = (1.0F - u - v) * scene_.uvs[t.x] + u * scene_.uvs[t.y] + v * scene_.uvs[t.z];
-        alpha *= sample_alpha(scene_.textures[texture], uv);
+        alpha *= sample_alpha(scene_.textures[texture], interpolate(scene_.uvs));
     }
     return alpha < (material.alpha_mode == AlphaMode::blend ? 0.5F : material.alpha_cutoff);
 }

@@ -28,6 +28,7 @@ struct SceneGpu {
     Buffer positions;                 ///< vec3 per vertex (scalar layout, 12 bytes), world space
     Buffer normals;                   ///< vec3 per vertex
     Buffer uvs;                       ///< vec2 per vertex
+    Buffer colors;                    ///< vec4 per vertex, or a single white one; shaders clamp the index
     Buffer indices;                   ///< uvec3 per triangle
     std::vector<Texture2D> textures;  ///< as Scene::textures, RGBA8 sRGB, mipmapped; index 0 of an empty scene is white
     Texture2D white;
@@ -41,7 +42,7 @@ SceneGpu upload_scene(Device& device, const Scene& scene);
 
 /// The scene's buffers in one frame's graph.
 struct SceneHandles {
-    BufferHandle positions, normals, uvs, indices;
+    BufferHandle positions, normals, uvs, colors, indices;
     std::vector<TextureHandle> textures;
     TextureHandle white;
     std::uint64_t version = 0;  ///< SceneGpu::version

@@ -47,10 +47,15 @@ TEST(VertexColor, HalfOfABoardCastsWhereItsAlphaRunsFromNoneToAll) {
     struct Case {
         const char *lamp, *technique;
     };
-    for (const Case& tested :
-         {Case{"directional", "hard"}, {"directional", "silhouette"}, {"directional", "planar"},
-          {"directional", "cascades"}, {"directional", "evsm4"}, {"directional", "hard,casters=ids"}, {"point", "hard"},
-          {"point", "paraboloid"}, {"point", "planar"}}) {
+    for (const Case& tested : {Case{"directional", "hard"},
+                               {"directional", "silhouette"},
+                               {"directional", "planar"},
+                               {"directional", "cascades"},
+                               {"directional", "evsm4"},
+                               {"directional", "hard,casters=ids"},
+                               {"point", "hard"},
+                               {"point", "paraboloid"},
+                               {"point", "planar"}}) {
         SCOPED_TRACE(std::string(tested.technique) + " under a " + tested.lamp);
         const auto whole = test::compare(board(tested.lamp, 0, 1), tested.technique, small);
         const auto half = test::compare(half_board(tested.lamp), tested.technique, small);

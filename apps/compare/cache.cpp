@@ -48,6 +48,7 @@ void add_scene(Hasher& hasher, const Scene& scene) {
     add_values(hasher, scene.positions_ws);
     add_values(hasher, scene.normals_ws);
     add_values(hasher, scene.uvs);
+    add_values(hasher, scene.colors);
     add_values(hasher, scene.triangles);
     for (const Object& object : scene.objects) {
         hasher.value(object.first_triangle).value(object.triangle_count).value(object.material);

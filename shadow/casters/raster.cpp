@@ -20,7 +20,8 @@ layout(location = 0) out float out_depth;
 #endif
 #ifdef GN_MASKED
 layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
-layout(location = 1) out vec2 out_uv;
+layout(binding = 9, scalar) readonly buffer Colors { vec4 colors[]; };
+layout(location = 1) out vec3 out_mask;  // uv, and the alpha of the vertices
 #endif
 void main() {
 #ifdef GN_LAYERED
@@ -37,7 +38,7 @@ void main() {
     out_depth = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
 #endif
 #ifdef GN_MASKED
-    out_uv = uvs[gl_VertexIndex];
+    out_mask = vec3(uvs[gl_VertexIndex], colors[min(gl_VertexIndex, colors.length() - 1)].a);
 #endif
 }
 )";
@@ -53,10 +54,10 @@ layout(location = 1) flat out vec3 out_a;
 layout(location = 2) flat out vec3 out_b;
 layout(location = 3) flat out vec3 out_c;
 #ifdef GN_MASKED
-layout(location = 1) in vec2 in_uv[];
-layout(location = 4) flat out vec2 out_uv_a;
-layout(location = 5) flat out vec2 out_uv_b;
-layout(location = 6) flat out vec2 out_uv_c;
+layout(location = 1) in vec3 in_mask[];
+layout(location = 4) flat out vec3 out_mask_a;
+layout(location = 5) flat out vec3 out_mask_b;
+layout(location = 6) flat out vec3 out_mask_c;
 #endif
 void main() {
     vec3 a = gl_in[0].gl_Position.xyz;
@@ -77,9 +78,9 @@ void main() {
         out_b = b;
         out_c = c;
 #ifdef GN_MASKED
-        out_uv_a = in_uv[0];
-        out_uv_b = in_uv[1];
-        out_uv_c = in_uv[2];
+        out_mask_a = in_mask[0];
+        out_mask_b = in_mask[1];
+        out_mask_c = in_mask[2];
 #endif
         gl_Position = vec4(out_u / extent, 0.5, 1.0);
         EmitVertex();
@@ -100,14 +101,14 @@ layout(location = 1) flat in vec3 in_a;
 layout(location = 2) flat in vec3 in_b;
 layout(location = 3) flat in vec3 in_c;
 #ifdef GN_MASKED
-layout(location = 4) flat in vec2 in_uv_a;
-layout(location = 5) flat in vec2 in_uv_b;
-layout(location = 6) flat in vec2 in_uv_c;
+layout(location = 4) flat in vec3 in_mask_a;
+layout(location = 5) flat in vec3 in_mask_b;
+layout(location = 6) flat in vec3 in_mask_c;
 #endif
 #else
 layout(location = 0) in float in_depth;
 #ifdef GN_MASKED
-layout(location = 1) in vec2 in_uv;
+layout(location = 1) in vec3 in_mask;
 #endif
 #endif
 )";
@@ -124,13 +125,13 @@ void main() {
     }
     float in_depth = hit.w;
 #ifdef GN_MASKED
-    vec2 in_uv = hit.x * in_uv_a + hit.y * in_uv_b + hit.z * in_uv_c;
+    vec3 in_mask = hit.x * in_mask_a + hit.y * in_mask_b + hit.z * in_mask_c;
 #endif
 #else
     vec2 slope = vec2(dFdx(in_depth), dFdy(in_depth));
 #endif
 #ifdef GN_MASKED
-    if (textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.alpha_cutoff) {
+    if (textureLod(base_color_texture, in_mask.xy, 0.0).a * push.base_alpha * in_mask.z < push.alpha_cutoff) {
         discard;
     }
 #endif
@@ -251,6 +252,7 @@ void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const s
     }
     begin(r, faces, true);
     r.set("Uvs", handles.uvs);
+    r.set("Colors", handles.colors);
     for (const std::uint32_t index : masked) {
         const Object& object = scene->objects[index];
         const Material& material = scene->materials[static_cast<std::size_t>(object.material)];
@@ -314,6 +316,7 @@ void CasterDraw::declare(PassBuilder& builder) const {
     builder.vertices(handles.positions);
     builder.indices(handles.indices);
     builder.storage_read(handles.uvs);
+    builder.storage_read(handles.colors);
     sample_textures(builder, handles);
     declare_views(builder, views);
     if (pass.declare) {

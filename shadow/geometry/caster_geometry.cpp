@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 
 namespace gn {
 
@@ -29,16 +30,33 @@ std::pair<float, float> alpha_range(const Scene& scene, const Material& material
             material.base_color.a * static_cast<float>(high) / 255.0F};
 }
 
-CasterKind material_kind(const Scene& scene, const Material& material) {
+// The same of an object's vertices.
+std::pair<float, float> vertex_alpha_range(const Scene& scene, const Object& object) {
+    if (scene.colors.empty()) {
+        return {1.0F, 1.0F};
+    }
+    float low = std::numeric_limits<float>::max(), high = 0.0F;
+    for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
+        const uvec3 t = scene.triangles[object.first_triangle + i];
+        for (int corner = 0; corner < 3; ++corner) {
+            low = std::min(low, scene.colors[t[corner]].a);
+            high = std::max(high, scene.colors[t[corner]].a);
+        }
+    }
+    return {low, high};
+}
+
+CasterKind kind_of(const Scene& scene, const Object& object, std::pair<float, float> of_material) {
+    const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
     if (material.alpha_mode == AlphaMode::opaque) {
         return CasterKind::opaque;
     }
-    const auto [low, high] = alpha_range(scene, material);
+    const auto [low, high] = vertex_alpha_range(scene, object);
     const float cutoff = alpha_test(material).cutoff;
-    if (low >= cutoff) {
+    if (low * of_material.first >= cutoff) {
         return CasterKind::opaque;
     }
-    return high < cutoff ? CasterKind::absent : CasterKind::masked;
+    return high * of_material.second < cutoff ? CasterKind::absent : CasterKind::masked;
 }
 
 // A multiplicative mix of eight bytes at a time; the tail is padded with zeros.
@@ -55,17 +73,19 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t bytes) {
 }  // namespace
 
 std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light) {
-    // Judge each material once, however many objects wear it.
-    std::vector<CasterKind> of_material;
+    // Look through each texture once, however many objects wear it.
+    std::vector<std::pair<float, float>> of_material;
     of_material.reserve(scene.materials.size());
     for (const Material& material : scene.materials) {
-        of_material.push_back(material_kind(scene, material));
+        of_material.push_back(alpha_range(scene, material));
     }
     std::vector<CasterKind> kinds;
     kinds.reserve(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        kinds.push_back(casts(scene, i, &light) ? of_material[static_cast<std::size_t>(scene.objects[i].material)]
-                                                : CasterKind::absent);
+        const Object& object = scene.objects[i];
+        kinds.push_back(casts(scene, i, &light)
+                            ? kind_of(scene, object, of_material[static_cast<std::size_t>(object.material)])
+                            : CasterKind::absent);
     }
     return kinds;
 }

@@ -84,6 +84,9 @@ namespace {
 void check_structure(Scene& scene) {
     scene.normals_ws.resize(scene.positions_ws.size(), vec3(0.0F));
     scene.uvs.resize(scene.positions_ws.size(), vec2(0.0F));
+    if (!scene.colors.empty()) {
+        scene.colors.resize(scene.positions_ws.size(), vec4(1.0F));
+    }
     if (scene.materials.empty()) {
         scene.materials.push_back({.name = "default"});
     }
@@ -120,6 +123,9 @@ void clean_vertices(Scene& scene) {
         if (!(std::abs(uv.x) < 1e6F && std::abs(uv.y) < 1e6F)) {
             scene.uvs[v] = vec2(0.0F);
         }
+    }
+    for (vec4& color : scene.colors) {
+        color = finite(vec3(color)) && std::isfinite(color.a) ? color : vec4(1.0F);
     }
 }
 

@@ -116,6 +116,10 @@ void write_instance(Scene& scene, const Mesh& mesh, const Instance& instance) {
         scene.normals_ws.push_back(turn_normal(cofactors, mesh.normals_os[v]));
         scene.uvs.push_back(mesh.uvs[v]);
     }
+    if (!mesh.colors.empty()) {
+        scene.colors.resize(first_vertex, vec4(1.0F));
+        scene.colors.insert(scene.colors.end(), mesh.colors.begin(), mesh.colors.end());
+    }
 
     // Keep the winding's meaning under mirroring.
     Object object{.name = instance.name,

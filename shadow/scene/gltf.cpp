@@ -2,6 +2,8 @@
 // glTF 2.0: nodes become instances of primitives, lights and cameras.
 #include "shadow/scene/gltf_data.h"
 
+#include <algorithm>
+
 namespace gn {
 
 namespace {
@@ -54,7 +56,7 @@ class Builder {
                 known ? static_cast<std::size_t>(primitive.material) : file_.data.materials.size();
             Mesh mesh = load_primitive(file_, primitive, uv_uses_[material], pose);
             mesh.name = clean_text(data.name);
-            mesh.material = static_cast<int>(material);
+            mesh.material = with_factor(static_cast<int>(material), mesh);
             note_missing_uvs(primitive, material);
             if (!mesh.triangles.empty()) {
                 parts.push_back(model_.meshes.size());
@@ -63,6 +65,27 @@ class Builder {
             }
         }
         return parts;
+    }
+
+    // One alpha for all vertices is a factor: what it covers is decided, and said, as for the material's own.
+    int with_factor(int material, Mesh& mesh) {
+        const Material& plain = model_.materials[static_cast<std::size_t>(material)];
+        const float alpha = mesh.colors.empty() ? 1.0F : mesh.colors.front().a;
+        const bool same = std::all_of(mesh.colors.begin(), mesh.colors.end(),
+                                      [alpha](const vec4& color) { return color.a == alpha; });
+        if (alpha == 1.0F || !same || plain.alpha_mode == AlphaMode::opaque) {
+            return material;
+        }
+        for (vec4& color : mesh.colors) {
+            color.a = 1.0F;
+        }
+        const auto [known, added] = with_factors_.try_emplace({material, alpha}, model_.materials.size());
+        if (added) {
+            Material covered = plain;
+            covered.base_color.a *= alpha;
+            model_.materials.push_back(std::move(covered));
+        }
+        return static_cast<int>(known->second);
     }
 
     // The node wins over the mesh, the mesh over the material.
@@ -103,6 +126,7 @@ class Builder {
     std::map<std::pair<int, std::vector<double>>, std::vector<std::size_t>> meshes_;
     std::vector<Orders> orders_;  ///< of model_.meshes
     std::map<std::size_t, Orders> of_materials_;
+    std::map<std::pair<int, float>, std::size_t> with_factors_;  ///< materials with the alpha of vertices
     std::size_t triangles_ = 0;
 };
 

@@ -146,6 +146,12 @@ void pose_by_joints(const File& file, const tinygltf::Primitive& primitive, cons
     }
 }
 
+// Colours of three components are opaque; they are linear, whatever they are stored as.
+vec4 read_color(const Elements& colors, std::size_t vertex) {
+    const dvec4 color = colors.vector(vertex);
+    return vec4(dvec4(dvec3(color), colors.components() > 3 ? color.w : 1.0));
+}
+
 bool is_compressed(const File& file, const tinygltf::Primitive& primitive, int positions) {
     return primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
            at(file.data.accessors, positions, file, "accessor").bufferView < 0;
@@ -180,6 +186,7 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
     const Elements positions(file, named->second);
     const std::optional<Elements> normals = attribute(file, primitive, "NORMAL");
     const std::optional<Elements> uvs = attribute(file, primitive, fmt::format("TEXCOORD_{}", uv_use.set));
+    const std::optional<Elements> colors = attribute(file, primitive, "COLOR_0");
     mesh.triangles = read_triangles(file, primitive, positions.size());
     const std::vector<std::uint32_t> used = compact(mesh.triangles);
     for (const std::uint32_t v : used) {
@@ -187,6 +194,9 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
         mesh.normals_os.push_back(normals && v < normals->size() ? vec3(normals->vector(v)) : vec3(0.0F));
         const dvec2 uv(uvs && v < uvs->size() ? dvec2(uvs->vector(v)) : dvec2(0.0));
         mesh.uvs.emplace_back(uv_use.uv_from_file * dvec3(uv, 1.0));
+        if (colors) {
+            mesh.colors.push_back(v < colors->size() ? read_color(*colors, v) : vec4(1.0F));
+        }
     }
     morph(file, primitive, pose.weights, used, mesh);
     if (pose.joints != nullptr) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Morph targets: displacements of positions and normals, summed by the weights of the node or else of the mesh.
+// Morph targets: displacements of positions, normals and colours, summed by the weights of the node or else of the mesh.
 #include "shadow/scene/gltf_data.h"
 
 namespace gn::gltf {
@@ -18,7 +18,7 @@ void for_each_displacement(File& file, const std::map<std::string, int>& target,
     bool complete = true;
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (used[i] < displacements.size()) {
-            add(i, dvec3(displacements.vector(used[i])));
+            add(i, displacements.vector(used[i]));
         } else {
             complete = false;
         }
@@ -42,15 +42,23 @@ void morph(File& file, const tinygltf::Primitive& primitive, std::span<const dou
             continue;
         }
         for_each_displacement(file, primitive.targets[t], "POSITION", used,
-                              [&](std::size_t i, dvec3 d) { mesh.positions_os[i] += weight * d; });
-        for_each_displacement(file, primitive.targets[t], "NORMAL", used, [&](std::size_t i, dvec3 d) {
-            normals[i] += weight * d;
+                              [&](std::size_t i, dvec4 d) { mesh.positions_os[i] += weight * dvec3(d); });
+        for_each_displacement(file, primitive.targets[t], "NORMAL", used, [&](std::size_t i, dvec4 d) {
+            normals[i] += weight * dvec3(d);
             turned = true;
+        });
+        for_each_displacement(file, primitive.targets[t], "COLOR_0", used, [&](std::size_t i, dvec4 d) {
+            if (!mesh.colors.empty()) {
+                mesh.colors[i] += vec4(weight * d);
+            }
         });
     }
     for (std::size_t i = 0; turned && i < normals.size(); ++i) {
         const double length = glm::length(normals[i]);
         mesh.normals_os[i] = length > 0.0 && std::isfinite(length) ? vec3(normals[i] / length) : vec3(0.0F);
+    }
+    for (vec4& color : mesh.colors) {
+        color = glm::clamp(color, 0.0F, 1.0F);
     }
 }
 

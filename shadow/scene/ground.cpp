@@ -61,6 +61,9 @@ void append_plane(Scene& scene, vec3 centre_ws, float half_side) {
         scene.positions_ws.push_back(centre_ws + half_side * vec3(corner.x, 0.0F, corner.y));
         scene.normals_ws.emplace_back(0, 1, 0);
         scene.uvs.emplace_back(0.0F);
+        if (!scene.colors.empty()) {
+            scene.colors.emplace_back(1.0F);
+        }
         object.bounds_ws.grow(scene.positions_ws.back());
     }
     scene.triangles.emplace_back(first, first + 1, first + 2);

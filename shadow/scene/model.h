@@ -13,6 +13,7 @@ struct Mesh {
     std::vector<dvec3> positions_os;
     std::vector<vec3> normals_os;  ///< as long as positions_os
     std::vector<vec2> uvs;         ///< as long as positions_os
+    std::vector<vec4> colors;      ///< likewise, as Scene::colors; empty: all 1
     std::vector<uvec3> triangles;
     int material = 0;
 };

@@ -123,6 +123,9 @@ class VertexSplitter {
         scene_.positions_ws.push_back(vec3(scene_.positions_ws[original]));
         scene_.normals_ws.push_back(normal);
         scene_.uvs.push_back(vec2(scene_.uvs[original]));
+        if (!scene_.colors.empty()) {
+            scene_.colors.push_back(vec4(scene_.colors[original]));
+        }
         copies_.push_back({original, vertex});
     }
 

@@ -78,6 +78,7 @@ struct Scene {
     std::vector<vec3> positions_ws;   ///< per vertex, metres, relative to origin
     std::vector<vec3> normals_ws;     ///< per vertex, unit shading normals
     std::vector<vec2> uvs;            ///< per vertex, for the base colour texture
+    std::vector<vec4> colors;         ///< per vertex, linear: times the base colour and its alpha; empty: all 1
     std::vector<uvec3> triangles;     ///< vertex indices, all < positions_ws.size()
     std::vector<Object> objects;      ///< cover all triangles in order
     std::vector<Material> materials;  ///< never empty

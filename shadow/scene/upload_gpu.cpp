@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene on the GPU: four buffers and the base colour textures.
+// The scene on the GPU: five buffers and the base colour textures.
 #include "shadow/frame/frame.h"
 
 #include <atomic>
@@ -41,6 +41,8 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     gpu.positions = upload(device, "positions", scene.positions_ws, vertex);
     gpu.normals = upload(device, "normals", scene.normals_ws, vertex);
     gpu.uvs = upload(device, "uvs", scene.uvs, vertex);
+    gpu.colors = upload(device, "colors", scene.colors.empty() ? std::vector<vec4>{vec4(1.0F)} : scene.colors,
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     gpu.indices = upload(device, "indices", scene.triangles,
                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     for (const Texture& texture : scene.textures) {
@@ -54,6 +56,7 @@ SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
     SceneHandles handles{.positions = graph.import(scene.positions),
                          .normals = graph.import(scene.normals),
                          .uvs = graph.import(scene.uvs),
+                         .colors = graph.import(scene.colors),
                          .indices = graph.import(scene.indices)};
     for (Texture2D& texture : scene.textures) {
         handles.textures.push_back(graph.import(texture));

@@ -17,15 +17,18 @@ layout(location = 0) in vec3 in_position_ws;
 layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
 layout(binding = 1, scalar) readonly buffer Normals { vec3 normals[]; };
 layout(binding = 2, scalar) readonly buffer Uvs { vec2 uvs[]; };
+layout(binding = 6, scalar) readonly buffer Colors { vec4 colors[]; };
 layout(location = 0) out vec3 out_position_ws;
 layout(location = 1) out vec3 out_normal_ws;
 layout(location = 2) out vec2 out_uv;
+layout(location = 3) out vec4 out_color;
 invariant gl_Position;
 void main() {
     gl_Position = u.view.cs_from_ws * vec4(in_position_ws, 1.0);
     out_position_ws = in_position_ws;
     out_normal_ws = normals[gl_VertexIndex];
     out_uv = uvs[gl_VertexIndex];
+    out_color = colors[min(gl_VertexIndex, colors.length() - 1)];
 }
 )";
 
@@ -48,6 +51,7 @@ layout(push_constant, scalar) uniform Push {
 layout(location = 0) in vec3 in_position_ws;
 layout(location = 1) in vec3 in_normal_ws;
 layout(location = 2) in vec2 in_uv;
+layout(location = 3) in vec4 in_color;
 layout(location = 0) out vec4 out_position;
 layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec4 out_shading_normal;
@@ -56,8 +60,9 @@ layout(location = 4) out vec4 out_material;
 layout(location = 5) out vec4 out_emission;
 
 void main() {
-    vec4 base_color = texture(base_color_texture, in_uv) * push.base_color;
-    if (push.alpha_cutoff >= 0.0 && textureLod(base_color_texture, in_uv, 0.0).a * push.base_color.a < push.alpha_cutoff) {
+    vec4 base_color = texture(base_color_texture, in_uv) * push.base_color * in_color;
+    float alpha = textureLod(base_color_texture, in_uv, 0.0).a * push.base_color.a * in_color.a;
+    if (push.alpha_cutoff >= 0.0 && alpha < push.alpha_cutoff) {
         discard;
     }
     // Take the exact plane of the triangle, and move the interpolated point into it.
@@ -180,7 +185,8 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
             pass.depth(samples.depth, Load::clear, {.depth = 0.0F});
             pass.vertices(handles.positions);
             pass.indices(handles.indices);
-            for (const BufferHandle buffer : {handles.positions, handles.normals, handles.uvs, handles.indices}) {
+            for (const BufferHandle buffer :
+                 {handles.positions, handles.normals, handles.uvs, handles.colors, handles.indices}) {
                 pass.storage_read(buffer);
             }
             sample_textures(pass, handles);
@@ -191,6 +197,7 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
                 r.set_value("u", samples.constants);
                 r.set("Normals", handles.normals);
                 r.set("Uvs", handles.uvs);
+                r.set("Colors", handles.colors);
                 r.set("Positions", handles.positions);
                 r.set("Indices", handles.indices);
                 r.vertex_buffer(handles.positions);

@@ -40,12 +40,13 @@ constexpr const char* caster_vertex_text = R"(
 #include "shadow/direct/planar/planar.glsl"
 layout(binding = 0, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
+layout(binding = 4, scalar) readonly buffer Colors { vec4 colors[]; };
 layout(binding = 3, scalar) uniform Frame { GnPlanarFrame frame; } u;
-layout(location = 0) out vec2 out_uv;
+layout(location = 0) out vec3 out_mask;  // uv, and the alpha of the vertices
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[2]; };
 void main() {
     vec3 p_ws = positions[gl_VertexIndex];
-    out_uv = uvs[gl_VertexIndex];
+    out_mask = vec3(uvs[gl_VertexIndex], colors[min(gl_VertexIndex, colors.length() - 1)].a);
     gl_Position = u.frame.cs_from_ws * gn_planar_project(u.frame.plane_ws, u.frame.light_ws, p_ws);
     // Only what stands between plane and light casts: the rest would throw an antishadow. [AHH18] section 7.1
     float height = gn_planar_height(u.frame.plane_ws, vec4(p_ws, 1.0));
@@ -58,10 +59,11 @@ constexpr const char* caster_fragment_text = R"(
 layout(constant_id = 0) const int MASKED = 0;
 layout(binding = 2) uniform sampler2D base_color_texture;
 layout(push_constant, scalar) uniform Push { float base_alpha; float cutoff; } push;
-layout(location = 0) in vec2 in_uv;
+layout(location = 0) in vec3 in_mask;
 layout(location = 0) out float visibility;
 void main() {
-    if (MASKED != 0 && textureLod(base_color_texture, in_uv, 0.0).a * push.base_alpha < push.cutoff) {
+    float alpha = textureLod(base_color_texture, in_mask.xy, 0.0).a * push.base_alpha * in_mask.z;
+    if (MASKED != 0 && alpha < push.cutoff) {
         discard;
     }
     visibility = 0.0;
@@ -169,6 +171,7 @@ void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& plan
             pass.indices(input.handles.indices);
             pass.storage_read(input.handles.positions);
             pass.storage_read(input.handles.uvs);
+            pass.storage_read(input.handles.colors);
             sample_textures(pass, input.handles);
         },
         [handles = input.handles, scene = &input.scene, planes, sides](Recorder& r) {
@@ -189,6 +192,7 @@ void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& plan
                     r.index_buffer(handles.indices);
                     r.set("Positions", handles.positions);
                     r.set("Uvs", handles.uvs);
+                    r.set("Colors", handles.colors);
                     r.set_value("u", planes[i]);
                     r.set("base_color_texture", handles.white);
                     r.push_value(AlphaTest{});
