@@ -97,7 +97,8 @@ TEST(Cases, MasksAreRead) {
     const Scene scene = load_scene((cases() / "specgloss_mask/scene.glb").string());
     EXPECT_TRUE(has_mask(scene, material(scene, "leaves")));
     EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
-    // Pictures that cannot be read take the mask with them, and that is said.
+    // Pictures that cannot be read take the mask with them, and that is said: the WebP of these files has a header and no
+    // picture behind it.
     for (const char* file : {"webp_mask/required.glb", "webp_mask/used_no_fallback.glb"}) {
         EXPECT_TRUE(has_note(load_scene((cases() / file).string()), "'leaves' has lost its mask")) << file;
     }
