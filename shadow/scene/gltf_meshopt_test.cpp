@@ -23,7 +23,8 @@ std::string packed_vertices(const std::vector<T>& values, std::size_t stride) {
 
 std::string packed_indices(const std::vector<std::uint32_t>& indices, bool triangles = true) {
     const std::size_t count = indices.size();
-    std::string bytes(meshopt_encodeIndexBufferBound(count, 1000) + meshopt_encodeIndexSequenceBound(count, 1000), '\0');
+    std::string bytes(meshopt_encodeIndexBufferBound(count, 1000) + meshopt_encodeIndexSequenceBound(count, 1000),
+                      '\0');
     auto* out = reinterpret_cast<unsigned char*>(bytes.data());
     bytes.resize(triangles ? meshopt_encodeIndexBuffer(out, bytes.size(), indices.data(), count)
                            : meshopt_encodeIndexSequence(out, bytes.size(), indices.data(), count));
@@ -125,9 +126,9 @@ TEST(GltfMeshopt, QuantizedPositionsGoThroughTheirNode) {
                     triangles(packed_indices(faces))};
     file.node = R"(,"scale":[2,2,2])";
     expect_square(load(file), 3e-5F);
-    PackedFile plain{{packed_vertices(half, 8), 8, "4", "ATTRIBUTES", "NONE",
-                      R"("componentType":5122,"type":"VEC3","count":4)"},
-                     triangles(packed_indices(faces))};
+    PackedFile plain{
+        {packed_vertices(half, 8), 8, "4", "ATTRIBUTES", "NONE", R"("componentType":5122,"type":"VEC3","count":4)"},
+        triangles(packed_indices(faces))};
     plain.node = R"(,"scale":[3.0518509e-5,3.0518509e-5,3.0518509e-5])";
     expect_square(load(plain), 1e-6F);
 }
