@@ -19,6 +19,7 @@ struct File {
     tinygltf::Model data;
     std::map<int, std::vector<std::byte>> external_images;  ///< bytes of images that are not in a buffer view
     std::map<std::string, std::string> refusals;  ///< names of files that were not found or not allowed, and why
+    std::map<int, std::vector<unsigned char>> unpacked_views;  ///< what compressed buffer views hold
     std::vector<std::string> notes;
     std::size_t triangles_decoded = 0;  ///< of all primitives so far, before instancing
 };

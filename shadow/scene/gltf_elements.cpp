@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Accessors: every offset, stride and sparse index is checked once, then elements are read without further ado.
-#include "shadow/scene/gltf_data.h"
+#include "shadow/scene/gltf_packed.h"
 
 #include <algorithm>
 #include <cstring>
@@ -91,10 +91,7 @@ Elements::Elements(const File& file, int accessor_index) {
 Elements::Run Elements::locate(const File& file, int view_index, std::size_t offset, std::size_t count,
                                std::size_t element_size, bool packed) const {
     const tinygltf::BufferView& view = at(file.data.bufferViews, view_index, file, "buffer view");
-    const tinygltf::Buffer& buffer = at(file.data.buffers, view.buffer, file, "buffer");
-    if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset) {
-        fail("{}: buffer view {} does not fit into its buffer of {} bytes", file.shown, view_index, buffer.data.size());
-    }
+    const std::span<const unsigned char> bytes = view_bytes(file, view_index);
 
     // The last element need not fill its stride.
     const std::size_t stride = packed || view.byteStride == 0 ? element_size : view.byteStride;
@@ -102,12 +99,12 @@ Elements::Run Elements::locate(const File& file, int view_index, std::size_t off
         fail("{}: buffer view {} has a stride of {} bytes for elements of {}", file.shown, view_index, stride,
              element_size);
     }
-    const bool inside = count == 0 || (offset <= view.byteLength && element_size <= view.byteLength - offset &&
-                                       (count - 1) <= (view.byteLength - offset - element_size) / stride);
+    const bool inside = count == 0 || (offset <= bytes.size() && element_size <= bytes.size() - offset &&
+                                       (count - 1) <= (bytes.size() - offset - element_size) / stride);
     if (!inside) {
-        fail("{} does not fit into its buffer view of {} bytes", name_, view.byteLength);
+        fail("{} does not fit into its buffer view of {} bytes", name_, bytes.size());
     }
-    return {count == 0 ? nullptr : buffer.data.data() + view.byteOffset + offset, stride};
+    return {count == 0 ? nullptr : bytes.data() + offset, stride};
 }
 
 void Elements::read_sparse(const File& file, const tinygltf::Accessor& accessor) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parsing .gltf and .glb with tinygltf, kept inside the model's folder and within bounded memory.
-#include "shadow/scene/gltf_data.h"
+#include "shadow/scene/gltf_packed.h"
 
 #include <cstring>
 
@@ -64,6 +64,9 @@ bool keep_image(tinygltf::Image* image, const int index, std::string*, std::stri
     return true;
 }
 
+// Of a binary file: magic, version, length; then the JSON chunk's length and type.
+constexpr std::size_t glb_header = 20;
+
 std::uint32_t word(std::span<const std::byte> bytes, std::size_t at) {
     std::uint32_t value = 0;
     std::memcpy(&value, bytes.data() + at, sizeof(value));
@@ -75,15 +78,13 @@ std::string_view json_of(std::span<const std::byte> bytes, bool binary, const st
     if (!binary) {
         return {text, bytes.size()};
     }
-    // Header: magic, version, length; then the JSON chunk's length and type.
-    constexpr std::size_t header = 20;
-    if (bytes.size() < header || word(bytes, 12) > bytes.size() - header || word(bytes, 8) > bytes.size()) {
+    if (bytes.size() < glb_header || word(bytes, 12) > bytes.size() - glb_header || word(bytes, 8) > bytes.size()) {
         fail("{}: the file is cut off", shown);
     }
     if (word(bytes, 4) != 2) {
         fail("{}: glTF version {}; only version 2 is read", shown, word(bytes, 4));
     }
-    return {text + header, word(bytes, 12)};
+    return {text + glb_header, word(bytes, 12)};
 }
 
 // The first of the parser's complaints, as one line.
@@ -95,15 +96,24 @@ std::string first_line(const std::string& complaints) {
     return clean_text(line.substr(0, line.find_last_not_of(" .") + 1));
 }
 
-void check_extensions(File& file) {
-    // What only changes how a surface looks may be left out; what holds the geometry may not.
-    for (const std::string& name : file.data.extensionsRequired) {
-        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression") {
-            fail("{}: the meshes are compressed with {}, which is not supported; save the file without compression",
-                 file.shown, clean_text(name));
-        }
+void put_word(std::vector<std::byte>& bytes, std::size_t at, std::size_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    std::memcpy(bytes.data() + at, &word, sizeof(word));
+}
+
+// The file with another JSON; what follows the JSON in a binary file stays.
+std::vector<std::byte> with_json(std::span<const std::byte> bytes, bool binary, std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto text = std::as_bytes(std::span(json));
+    std::vector<std::byte> whole(text.begin(), text.end());
+    if (binary) {
+        const std::span<const std::byte> rest = bytes.subspan(glb_header + word(bytes, 12));
+        whole.insert(whole.begin(), bytes.begin(), bytes.begin() + glb_header);
+        whole.insert(whole.end(), rest.begin(), rest.end());
+        put_word(whole, 8, whole.size());
+        put_word(whole, 12, json.size());
     }
-    note_extensions(file);
+    return whole;
 }
 
 }  // namespace
@@ -112,12 +122,16 @@ File parse_file(const std::filesystem::path& path, const Assets& assets) {
     File file;
     file.shown = clean_text(path.string());
     Reader reader{Folder(path, assets), &file};
-    const std::vector<std::byte> bytes = read_file(path);
+    std::vector<std::byte> bytes = read_file(path);
     if (bytes.size() < 4) {
         fail("{}: the file is empty; a glTF file was expected", file.shown);
     }
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
-    check_json(json_of(bytes, binary, file.shown), file.shown);
+    const std::string_view json = json_of(bytes, binary, file.shown);
+    check_json(json, file.shown);
+    if (std::optional<std::string> readable = readable_json(json)) {
+        bytes = with_json(bytes, binary, std::move(*readable));
+    }
 
     // The parser sees files only through the callbacks.
     tinygltf::TinyGLTF parser;
@@ -148,7 +162,8 @@ File parse_file(const std::filesystem::path& path, const Assets& assets) {
         fail("{}: not a valid glTF file ({})", file.shown, first_line(errors));
     }
     file.notes = reader.folder.take_notes();
-    check_extensions(file);
+    note_extensions(file);
+    unpack_views(file);
     return file;
 }
 

@@ -2,6 +2,8 @@
 // The pictures of a file: found behind textures and their extensions, decoded once each, kept within a bound.
 #include "shadow/scene/gltf_pictures.h"
 
+#include "shadow/scene/gltf_packed.h"
+
 #include <algorithm>
 #include <charconv>
 
@@ -141,12 +143,7 @@ std::span<const std::byte> Pictures::bytes_of(int image) const {
         }
         fail("picture '{}' cannot be read from the model's folder", shown_name(image));
     }
-    const tinygltf::BufferView& view = at(file_.data.bufferViews, data.bufferView, file_, "buffer view");
-    const tinygltf::Buffer& buffer = at(file_.data.buffers, view.buffer, file_, "buffer");
-    if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset) {
-        fail("picture '{}' does not lie inside its buffer", shown_name(image));
-    }
-    return {reinterpret_cast<const std::byte*>(buffer.data.data()) + view.byteOffset, view.byteLength};
+    return std::as_bytes(view_bytes(file_, data.bufferView));
 }
 
 std::optional<Image8> Pictures::decode(int image) {
