@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Float images on the CPU; PNG, JPEG and EXR files.
+// Float images on the CPU; PNG, JPEG, WebP and EXR files.
 #pragma once
 
 #include "base/math.h"
@@ -38,7 +38,7 @@ struct Image8 {
     std::vector<std::uint8_t> rgba;
 };
 
-/// Decodes PNG or JPEG. Throws Error naming `what` when the bytes are not a complete picture or exceed 16384 x 16384.
+/// Decodes PNG, JPEG or WebP. Throws Error naming `what` when the bytes are not a complete picture or exceed 16384 x 16384.
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& what);
 
 /// Writes values in [0,1] as 8-bit PNG without any further curve (callers tone-map and encode first).

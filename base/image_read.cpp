@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// PNG and JPEG in, with everything that a hostile file could inflate checked before memory is asked for.
+// PNG, JPEG and WebP in, with everything that a hostile file could inflate checked before memory is asked for.
 #include "base/error.h"
 #include "base/image.h"
 
 #include <stb/stb_image.h>
+#include <webp/decode.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <memory>
 
@@ -18,7 +20,7 @@ constexpr int largest_side = 16384;
 // this cannot hold the picture that the header promises.
 constexpr std::size_t most_pixels_per_byte = std::size_t{1032} * 8;
 
-enum class Format { png, jpeg, other };
+enum class Format { png, jpeg, webp, other };
 
 Format find_format(std::span<const std::byte> bytes) {
     const auto starts = [&](std::initializer_list<unsigned> magic) {
@@ -27,6 +29,9 @@ Format find_format(std::span<const std::byte> bytes) {
     };
     if (starts({0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A})) {
         return Format::png;
+    }
+    if (starts({'R', 'I', 'F', 'F'}) && bytes.size() >= 12 && std::memcmp(bytes.data() + 8, "WEBP", 4) == 0) {
+        return Format::webp;
     }
     return starts({0xFF, 0xD8, 0xFF}) ? Format::jpeg : Format::other;
 }
@@ -50,15 +55,47 @@ bool jpeg_is_complete(std::span<const std::byte> bytes) {
     return false;
 }
 
+void check_size(int width, int height, const std::string& what) {
+    if (width <= 0 || height <= 0 || width > largest_side || height > largest_side) {
+        fail("{}: a picture of {} x {} pixels; at most {} x {} are read", what, width, height, largest_side,
+             largest_side);
+    }
+}
+
+// A lossless WebP of one colour spends no bit on a pixel, so that its size says nothing about the file's: only the largest
+// side bounds the memory.
+Image8 decode_webp(std::span<const std::byte> bytes, const std::string& what) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    WebPBitstreamFeatures features{};
+    if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK) {
+        fail("{}: the picture's header is damaged", what);
+    }
+    check_size(features.width, features.height, what);
+    if (features.has_animation != 0) {
+        fail("{}: the picture moves; only still WebP is read", what);
+    }
+    Image8 image{.width = features.width, .height = features.height, .rgba = {}};
+    const std::size_t row = 4 * static_cast<std::size_t>(features.width);
+    image.rgba.resize(row * static_cast<std::size_t>(features.height));
+    if (WebPDecodeRGBAInto(data, bytes.size(), image.rgba.data(), image.rgba.size(), static_cast<int>(row)) ==
+        nullptr) {
+        fail("{}: the picture is cut off or damaged", what);
+    }
+    return image;
+}
+
 }  // namespace
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& what) {
     const Format format = find_format(bytes);
     if (format == Format::other) {
-        fail("{}: not a PNG or JPEG picture", what);
+        fail("{}: not a PNG, JPEG or WebP picture", what);
     }
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         fail("{}: a picture file of {} bytes is too large", what, bytes.size());
+    }
+    if (format == Format::webp) {
+        return decode_webp(bytes, what);
     }
 
     // Believe the header only as far as the file's size allows.
@@ -70,10 +107,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& what) {
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
         fail("{}: the picture's header is damaged", what);
     }
-    if (width <= 0 || height <= 0 || width > largest_side || height > largest_side) {
-        fail("{}: a picture of {} x {} pixels; at most {} x {} are read", what, width, height, largest_side,
-             largest_side);
-    }
+    check_size(width, height, what);
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels / most_pixels_per_byte > bytes.size() || (format == Format::jpeg && !jpeg_is_complete(bytes))) {
         fail("{}: the picture is cut off", what);
