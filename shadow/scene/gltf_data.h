@@ -33,11 +33,16 @@ File parse_file(const std::filesystem::path& path, const Assets& assets);
 /// One note for each kind of extension that the file uses and that is not understood.
 void note_extensions(File& file);
 
+/// Of an accessor's type; 0 for one that is not read.
+int count_components(int type);
+
 /// Reads elements of an accessor as floats, whatever they are stored as; sparse ones included.
 class Elements {
   public:
     /// Throws Error when any element would lie outside its buffer.
     Elements(const File& file, int accessor);
+    /// The same of an accessor whose bytes lie elsewhere, without gaps and alive for as long as this.
+    Elements(const File& file, int accessor, std::span<const unsigned char> bytes);
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Components beyond those stored are 0. `index` < size().
     [[nodiscard]] dvec4 vector(std::size_t index) const;
@@ -46,6 +51,7 @@ class Elements {
     [[nodiscard]] int components() const { return components_; }
 
   private:
+    void take_form(const File& file, int accessor);
     struct Run {
         const unsigned char* bytes = nullptr;  ///< null: all zeros
         std::size_t stride = 0;

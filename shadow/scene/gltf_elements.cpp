@@ -21,17 +21,6 @@ int size_of_component(int type) {
     }
 }
 
-int count_components(int type) {
-    switch (type) {
-        case TINYGLTF_TYPE_SCALAR: return 1;
-        case TINYGLTF_TYPE_VEC2: return 2;
-        case TINYGLTF_TYPE_VEC3: return 3;
-        case TINYGLTF_TYPE_VEC4: return 4;
-        case TINYGLTF_TYPE_MAT4: return 16;
-        default: return 0;
-    }
-}
-
 template <class T>
 double read_as(const unsigned char* bytes) {
     T value;
@@ -63,7 +52,18 @@ double normalize_integer(double value, int type) {
 
 }  // namespace
 
-Elements::Elements(const File& file, int accessor_index) {
+int count_components(int type) {
+    switch (type) {
+        case TINYGLTF_TYPE_SCALAR: return 1;
+        case TINYGLTF_TYPE_VEC2: return 2;
+        case TINYGLTF_TYPE_VEC3: return 3;
+        case TINYGLTF_TYPE_VEC4: return 4;
+        case TINYGLTF_TYPE_MAT4: return 16;
+        default: return 0;
+    }
+}
+
+void Elements::take_form(const File& file, int accessor_index) {
     const tinygltf::Accessor& accessor = at(file.data.accessors, accessor_index, file, "accessor");
     name_ = fmt::format("{}: accessor {}", file.shown, accessor_index);
     component_type_ = accessor.componentType;
@@ -77,6 +77,17 @@ Elements::Elements(const File& file, int accessor_index) {
     if (count_ > std::numeric_limits<std::uint32_t>::max()) {
         fail("{} has {} elements; at most 4294967295 can be addressed", name_, count_);
     }
+}
+
+Elements::Elements(const File& file, int accessor_index, std::span<const unsigned char> bytes) {
+    take_form(file, accessor_index);
+    base_ = {bytes.data(), static_cast<std::size_t>(component_size_ * components_)};
+    count_ = bytes.size() / base_.stride;
+}
+
+Elements::Elements(const File& file, int accessor_index) {
+    take_form(file, accessor_index);
+    const tinygltf::Accessor& accessor = at(file.data.accessors, accessor_index, file, "accessor");
 
     // Without a buffer view the elements are zeros, which cost no memory here.
     if (accessor.bufferView >= 0) {

@@ -16,7 +16,8 @@ using Names = std::span<const std::string_view>;
 constexpr auto understood = std::to_array<std::string_view>(
     {"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization", "EXT_meshopt_compression",
      "KHR_meshopt_compression", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness",
-     "KHR_materials_transmission", "KHR_node_visibility", "EXT_mesh_gpu_instancing", "EXT_texture_webp"});
+     "KHR_materials_transmission", "KHR_node_visibility", "EXT_mesh_gpu_instancing", "EXT_texture_webp",
+     "KHR_draco_mesh_compression"});
 
 // Nothing of it could be seen: data about data, sound, behaviour.
 constexpr auto unseen = std::to_array<std::string_view>({"KHR_xmp",

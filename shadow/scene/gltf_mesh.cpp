@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Primitives: triangles, strips and fans, with only the vertices that they use.
-#include "shadow/scene/gltf_data.h"
+#include "shadow/scene/gltf_packed.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,11 +9,23 @@ namespace gn::gltf {
 
 namespace {
 
-std::optional<Elements> attribute(const File& file, const tinygltf::Primitive& primitive, const std::string& name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? std::nullopt
-                                               : std::optional<Elements>(std::in_place, file, found->second);
-}
+// A primitive of the file, with what was unpacked of it.
+struct Source {
+    const File& file;
+    const tinygltf::Primitive& primitive;
+    std::optional<UnpackedPrimitive> unpacked;
+
+    [[nodiscard]] std::optional<Elements> attribute(const std::string& name) const {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end()) {
+            return std::nullopt;
+        }
+        const auto bytes = unpacked ? unpacked->attributes.find(name) : decltype(unpacked->attributes.end()){};
+        return unpacked && bytes != unpacked->attributes.end()
+                   ? std::optional<Elements>(std::in_place, file, found->second, bytes->second)
+                   : std::optional<Elements>(std::in_place, file, found->second);
+    }
+};
 
 int mode_of(const tinygltf::Primitive& primitive) {
     return primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -33,13 +45,19 @@ std::array<std::size_t, 3> triangle_slots(int mode, std::size_t i) {
                                               : std::array{3 * i, 3 * i + 1, 3 * i + 2};
 }
 
-std::vector<uvec3> read_triangles(File& file, const tinygltf::Primitive& primitive, std::size_t vertices) {
-    const int mode = mode_of(primitive);
+std::vector<uvec3> read_triangles(File& file, const Source& source, std::size_t vertices) {
+    // Unpacked strips have become triangles.
+    const int mode = source.unpacked ? TINYGLTF_MODE_TRIANGLES : mode_of(source.primitive);
     std::optional<Elements> indices;
-    if (primitive.indices >= 0) {
-        indices.emplace(file, primitive.indices);
+    if (source.primitive.indices >= 0 && !source.unpacked) {
+        indices.emplace(file, source.primitive.indices);
     }
-    const std::size_t count = indices ? indices->size() : vertices;
+    const auto index_at = [&](std::size_t slot) {
+        return source.unpacked ? source.unpacked->indices[slot]
+               : indices       ? indices->integer(slot)
+                               : static_cast<std::uint32_t>(slot);
+    };
+    const std::size_t count = source.unpacked ? source.unpacked->indices.size() : indices ? indices->size() : vertices;
     const std::size_t triangles = count_triangles(mode, count);
     file.triangles_decoded += triangles;
     if (file.triangles_decoded > max_triangles) {
@@ -54,8 +72,7 @@ std::vector<uvec3> read_triangles(File& file, const tinygltf::Primitive& primiti
         uvec3 t;
         const auto slots = triangle_slots(mode, i);
         for (int corner = 0; corner < 3; ++corner) {
-            const std::size_t slot = slots[static_cast<std::size_t>(corner)];
-            t[corner] = indices ? indices->integer(slot) : static_cast<std::uint32_t>(slot);
+            t[corner] = index_at(slots[static_cast<std::size_t>(corner)]);
         }
         if (std::max({t.x, t.y, t.z}) >= vertices) {
             ++dropped;
@@ -95,11 +112,11 @@ struct Influences {
     Elements joints, weights;
 };
 
-std::vector<Influences> find_influences(const File& file, const tinygltf::Primitive& primitive) {
+std::vector<Influences> find_influences(const Source& source) {
     std::vector<Influences> sets;
     for (int set = 0;; ++set) {
-        const std::optional<Elements> joints = attribute(file, primitive, fmt::format("JOINTS_{}", set));
-        const std::optional<Elements> weights = attribute(file, primitive, fmt::format("WEIGHTS_{}", set));
+        const std::optional<Elements> joints = source.attribute(fmt::format("JOINTS_{}", set));
+        const std::optional<Elements> weights = source.attribute(fmt::format("WEIGHTS_{}", set));
         if (!joints || !weights) {
             return sets;
         }
@@ -128,9 +145,8 @@ std::optional<dmat4> rest_matrix(const std::vector<Influences>& sets, std::size_
     return total > 0.0 ? std::optional(sum * (1.0 / total)) : std::nullopt;
 }
 
-void pose_by_joints(const File& file, const tinygltf::Primitive& primitive, const std::vector<std::uint32_t>& used,
-                    const Joints& matrices, Mesh& mesh) {
-    const std::vector<Influences> sets = find_influences(file, primitive);
+void pose_by_joints(const Source& source, const std::vector<std::uint32_t>& used, const Joints& matrices, Mesh& mesh) {
+    const std::vector<Influences> sets = find_influences(source);
     for (std::size_t v = 0; v < used.size(); ++v) {
         const std::optional<dmat4> m = rest_matrix(sets, used[v], matrices);
         if (!m) {
@@ -152,11 +168,6 @@ vec4 read_color(const Elements& colors, std::size_t vertex) {
     return vec4(dvec4(dvec3(color), colors.components() > 3 ? color.w : 1.0));
 }
 
-bool is_compressed(const File& file, const tinygltf::Primitive& primitive, int positions) {
-    return primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
-           at(file.data.accessors, positions, file, "accessor").bufferView < 0;
-}
-
 }  // namespace
 
 Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose) {
@@ -175,19 +186,14 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
         add_note(file.notes, "A primitive without positions was skipped.");
         return mesh;
     }
-    if (is_compressed(file, primitive, named->second)) {
-        fail(
-            "{}: the meshes are compressed with KHR_draco_mesh_compression, which is not supported; save the file "
-            "without compression",
-            file.shown);
-    }
 
     // Find the vertices in use, then read just those.
-    const Elements positions(file, named->second);
-    const std::optional<Elements> normals = attribute(file, primitive, "NORMAL");
-    const std::optional<Elements> uvs = attribute(file, primitive, fmt::format("TEXCOORD_{}", uv_use.set));
-    const std::optional<Elements> colors = attribute(file, primitive, "COLOR_0");
-    mesh.triangles = read_triangles(file, primitive, positions.size());
+    const Source source{file, primitive, unpack_primitive(file, primitive)};
+    const Elements positions = *source.attribute("POSITION");
+    const std::optional<Elements> normals = source.attribute("NORMAL");
+    const std::optional<Elements> uvs = source.attribute(fmt::format("TEXCOORD_{}", uv_use.set));
+    const std::optional<Elements> colors = source.attribute("COLOR_0");
+    mesh.triangles = read_triangles(file, source, positions.size());
     const std::vector<std::uint32_t> used = compact(mesh.triangles);
     for (const std::uint32_t v : used) {
         mesh.positions_os.emplace_back(positions.vector(v));
@@ -200,7 +206,7 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
     }
     morph(file, primitive, pose.weights, used, mesh);
     if (pose.joints != nullptr) {
-        pose_by_joints(file, primitive, used, *pose.joints, mesh);
+        pose_by_joints(source, used, *pose.joints, mesh);
     }
     return mesh;
 }

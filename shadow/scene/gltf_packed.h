@@ -21,6 +21,14 @@ std::optional<std::string> readable_json(std::string_view json);
 /// Unpacks every buffer view that is compressed into file.unpacked_views. Throws Error.
 void unpack_views(File& file);
 
+/// A primitive as Draco packed it, for load_primitive.
+struct UnpackedPrimitive {
+    std::vector<std::uint32_t> indices;                            ///< of triangles
+    std::map<std::string, std::vector<unsigned char>> attributes;  ///< as their accessors declare them, without gaps
+};
+/// Nothing where the primitive's positions are there without unpacking. Throws Error.
+std::optional<UnpackedPrimitive> unpack_primitive(const File& file, const tinygltf::Primitive& primitive);
+
 /// A part of a buffer, or Error; `what` names it.
 std::span<const unsigned char> buffer_bytes(const File& file, int buffer, std::size_t offset, std::size_t length,
                                             const std::string& what);

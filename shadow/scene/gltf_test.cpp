@@ -228,12 +228,6 @@ TEST(Gltf, FilesOutsideTheFolderAreNeverRead) {
     }
 }
 
-TEST(Gltf, CompressedMeshesAreRefusedByName) {
-    GltfText gltf = one_triangle();
-    gltf.more = R"("extensionsRequired":["KHR_draco_mesh_compression"],)";
-    EXPECT_NE(refusal(gltf.text()).find("KHR_draco_mesh_compression"), std::string::npos);
-}
-
 TEST(Gltf, SkinnedMeshesStandInTheirRestPose) {
     // The joint stands at (0,5,0) and the bind pose had it at (0,3,0): the mesh moves up by 2, whatever its node says.
     GltfText gltf = one_triangle();
