@@ -97,8 +97,9 @@ void show_part(const Part& part) {
         features += fmt::format("{}{}", features.empty() ? "" : ", ", feature_name(feature));
     }
     fmt::print("  source    [{}]\n  lights    {}\n", part.citation, part.lights.names());
-    fmt::print("{}", part.needs.empty() ? "" : fmt::format("  reads     maps that give {}\n", part.needs));
-    fmt::print("{}", part.gives.empty() ? "" : fmt::format("  gives     {}\n", part.gives));
+    fmt::print("{}",
+               part.needs.empty() ? "" : fmt::format("  reads     maps that give {}\n", fmt::join(part.needs, ", ")));
+    fmt::print("{}", part.gives.empty() ? "" : fmt::format("  gives     {}\n", fmt::join(part.gives, ", ")));
     fmt::print("{}", features.empty() ? "" : fmt::format("  features  {}\n", features));
     fmt::print("  recipes   {}\n\n", users_of(part));
     // The page itself, then the rows.
@@ -125,7 +126,7 @@ void show_recipe(const std::string& name) {
         fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", part_name(recipe.placement, "auto"),
                    part_name(recipe.map, "none"), part_name(recipe.lookup, "none"));
         fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, min_resolution, max_resolution);
-        fmt::print("  casters     {}, of {}\n", recipe.casters, fmt::join(caster_names, ", "));
+        fmt::print("  casters     {}, of {}\n", name_of(recipe.casters), fmt::join(caster_names, ", "));
     } else {
         fmt::print("  direct      {}\n", part_name(recipe.direct, "none"));
     }

@@ -47,6 +47,7 @@ using namespace glm;  // NOLINT: abs, clamp, mix, dot ... as GLSL has them; form
 #endif
 
 // What a formula's clamp would hide. Nothing, but where a host defines it before: see shadow/receiver/expect.h.
+//   #define GN_EXPECT(condition) { if (!(condition)) { return; } }
 #ifndef GN_EXPECT
 #define GN_EXPECT(condition)
 #endif

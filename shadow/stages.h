@@ -10,6 +10,7 @@
 #include "shadow/receiver/bias.h"
 #include "shadow/scene/scene.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -90,10 +91,13 @@ struct FrameInput {
     const Scene& scene;
     const SceneHandles& handles;
     const ViewSamples& samples;
-    const CpuSamples* cpu_samples = nullptr;  ///< when the caller has them (never required by shipping recipes)
-    std::size_t light_index = 0;
-    History* history = nullptr;  ///< what earlier frames of the sequence kept; null for a single frame
-    [[nodiscard]] const Light& light() const { return scene.lights[light_index]; }
+    const Light* source = nullptr;  ///< whose shadow is asked for; null in passes for all lights
+    std::uint64_t light_id = 0;     ///< keys what the history keeps for the light, in whatever order lights come
+    History* history = nullptr;     ///< what earlier frames of the sequence kept; null for a single frame
+    [[nodiscard]] const Light& light() const {
+        GN_CHECK(source != nullptr);
+        return *source;
+    }
 };
 
 class Part;
@@ -137,12 +141,23 @@ struct LightViews {
 void declare_views(PassBuilder& pass, const LightViews& views);
 void set_views(Recorder& r, const LightViews& views);
 
+/// A texture that a stage lends to the shaders of the stages behind it, by the name that parts know it by.
+struct Offer {
+    std::string name;       ///< "depth", "moments": one of Part::gives, or of what is derived from it
+    TextureHandle texture;  ///< 2D array, one layer a view (or as the part's GLSL reads it)
+    SamplerDesc sampler;    ///< how it is read
+};
+
 /// map: what a texel stores.
 struct ShadowMap {
-    TextureHandle texture;  ///< 2D array, one layer a view (or as the part's GLSL reads it)
-    TextureHandle extra;    ///< a second texture where the part needs one, else invalid
-    SamplerDesc sampler;    ///< how the texture is read when filtered
+    std::vector<Offer> offers;  ///< the first is the map itself: what `--show map` shows
     const Part* part = nullptr;
+    [[nodiscard]] const Offer* find(std::string_view name) const {
+        const auto found = std::find_if(offers.begin(), offers.end(), [&](const Offer& o) { return o.name == name; });
+        return found != offers.end() ? &*found : nullptr;
+    }
+    /// The map itself.
+    [[nodiscard]] TextureHandle texture() const { return offers.front().texture; }
 };
 
 /// lookup or direct or visibility: V in [0,1] for every view sample, R32F; 0 where the sample does not count.

@@ -55,13 +55,13 @@ inline Rendered render(SceneGpu& gpu, const Camera& camera, const Camera& placed
     const SceneHandles handles = import_scene(graph, gpu);
     ViewSamples samples = add_view_samples(graph, gpu, handles, camera, 160, 120);
     samples.camera = placed_by;
-    const FrameInput input{device(), graph, scene, handles, samples, nullptr, 0, history};
+    const FrameInput input{device(), graph, scene, handles, samples, scene.lights.data(), 0, history};
     LightViews views = recipe.placement->place(input, recipe);
     views.part = recipe.placement;
     ShadowMap map = recipe.map->add_map(input, recipe, views);
     map.part = recipe.map;
     const Visibility visibility = add_resolve(input, recipe, views, map);
-    for (const TextureHandle texture : {map.texture, visibility.image, samples.position, samples.normal}) {
+    for (const TextureHandle texture : {map.texture(), visibility.image, samples.position, samples.normal}) {
         graph.keep(texture);
     }
     if (views.buffer.valid()) {
@@ -77,7 +77,7 @@ inline Rendered render(SceneGpu& gpu, const Camera& camera, const Camera& placed
     copy_bytes(graph.download(visibility.image), result.visibility);
     for (std::uint32_t layer = 0; layer < views.layers; ++layer) {
         std::vector<float> texels;
-        copy_bytes(graph.download(map.texture, 0, layer), texels);
+        copy_bytes(graph.download(map.texture(), 0, layer), texels);
         result.map.insert(result.map.end(), texels.begin(), texels.end());
     }
     std::copy(views.data.begin(), views.data.end(), result.data.values);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace gn {
@@ -72,6 +74,66 @@ TEST(Include, every_portable_file_compiles_alone_and_twice) {
             ADD_FAILURE() << file << " does not compile alone: " << error.what();
         }
     }
+}
+
+/// A comment of a portable file that shows what a host may define: `//   #define GN_X 1`, and on lines `//   with #define ...`
+/// what it must define with it.
+struct Optional {
+    std::string name, text;
+};
+
+std::vector<Optional> shown_defines(const std::string& text) {
+    static const std::regex line(R"(//   (with )?(#define (GN_\w+).*))");
+    std::vector<Optional> shown;
+    for (std::sregex_iterator found(text.begin(), text.end(), line), end; found != end; ++found) {
+        if ((*found)[1].matched && !shown.empty()) {
+            shown.back().text += (*found)[2].str() + "\n";
+        } else {
+            shown.push_back({(*found)[3], (*found)[2].str() + "\n"});
+        }
+    }
+    return shown;
+}
+
+/// Names that a file asks for by #if, its own guard left out.
+std::set<std::string> asked_defines(const std::string& text) {
+    static const std::regex line(R"(#(?:ifdef|ifndef|if|elif).*)");
+    static const std::regex name(R"(GN_\w+)");
+    std::set<std::string> asked;
+    for (std::sregex_iterator found(text.begin(), text.end(), line), end; found != end; ++found) {
+        const std::string condition = found->str();
+        for (std::sregex_iterator word(condition.begin(), condition.end(), name); word != end; ++word) {
+            if (!word->str().ends_with("_GLSL") && !word->str().ends_with("_H")) {
+                asked.insert(word->str());
+            }
+        }
+    }
+    return asked;
+}
+
+TEST(Include, every_portable_file_compiles_under_each_of_its_optional_defines) {
+    ShaderCompiler compiler(root, {});
+    int compiled = 0;
+    for (const std::string& file : includable_files()) {
+        const std::string text = text_of(root / file);
+        const std::vector<Optional> shown = shown_defines(text);
+        for (const std::string& name : asked_defines(text)) {
+            EXPECT_TRUE(std::any_of(shown.begin(), shown.end(), [&](const Optional& o) { return o.name == name; }))
+                << file << " asks for " << name << " and shows no host how to define it: //   #define " << name
+                << " ...";
+        }
+        for (const Optional& define : shown) {
+            ShaderSource source = bare_shader(file);
+            source.text = define.text + source.text;
+            try {
+                EXPECT_FALSE(compiler.compile(source).spirv.empty()) << file;
+                ++compiled;
+            } catch (const Error& error) {
+                ADD_FAILURE() << file << " does not compile with " << define.text << error.what();
+            }
+        }
+    }
+    EXPECT_GT(compiled, 8);
 }
 
 TEST(Include, a_file_that_leans_on_another_is_noticed) {

@@ -15,7 +15,7 @@ inline LightViews place(const Scene& scene, const std::string& text, uint width 
     const SceneHandles handles;
     const ViewSamples samples{
         .width = width, .height = height, .camera = camera != nullptr ? *camera : scene.cameras.front()};
-    const FrameInput input{device(), graph, scene, handles, samples, nullptr, 0};
+    const FrameInput input{device(), graph, scene, handles, samples, scene.lights.data()};
     return place_views(input, load_recipe(text));
 }
 

@@ -77,7 +77,7 @@ void add_camera(Hasher& hasher, const Camera& camera) {
 }
 
 void add_recipe(Hasher& hasher, const Recipe& recipe) {
-    hasher.text(recipe.name).text(recipe.overrides).text(recipe.casters).value(recipe.resolution);
+    hasher.text(recipe.name).text(recipe.overrides).text(name_of(recipe.casters)).value(recipe.resolution);
     hasher.bytes(&recipe.bias, sizeof recipe.bias).text(recipe.title).text(recipe.paragraph);
     for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
         hasher.text(part != nullptr ? part->id : "");

@@ -12,7 +12,6 @@ namespace gn {
 namespace {
 
 LightInfo describe(const Light& light) {
-    constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
     const GnLight& shape = light.shape;
     std::string size = "no size";
     if (shape.kind == GN_LIGHT_DIRECTIONAL && shape.angular_radius > 0) {
@@ -22,7 +21,7 @@ LightInfo describe(const Light& light) {
     } else if (shape.kind != GN_LIGHT_DIRECTIONAL && shape.radius > 0) {
         size = fmt::format("radius {:.3g} m", shape.radius);
     }
-    return {light.name, std::string(kinds.at(shape.kind)), size};
+    return {light.name, std::string(light_kind_names.at(shape.kind)), size};
 }
 
 Image as_image(const std::vector<float>& values, const Size& size) {

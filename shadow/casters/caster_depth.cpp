@@ -35,11 +35,8 @@ TextureHandle add_second(const FrameInput& input, const Recipe& recipe, const Li
     pass.name = "map second";
     pass.every_side = true;
     pass.depth = create_map(input, views, "map second", VK_FORMAT_D32_SFLOAT);
-    pass.fragment.includes = R"(
-#include "shadow/receiver/receiver.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 4) uniform sampler2DArray nearest_depth;
-)";
+    pass.fragment.includes = "#include \"shadow/receiver/receiver.glsl\"\n";
+    pass.fragment.inputs.texture("sampler2DArray", "nearest_depth", nearest_depth);
     pass.fragment.body = R"(
 #ifdef GN_WRITE_DEPTH
     float own = depth;
@@ -50,8 +47,6 @@ layout(binding = 4) uniform sampler2DArray nearest_depth;
         discard;
     }
 )";
-    pass.declare = [nearest_depth](PassBuilder& builder) { builder.sample(nearest_depth); };
-    pass.bind_values = [nearest_depth](Recorder& r) { r.set("nearest_depth", nearest_depth); };
     add_caster_passes(input, recipe, one_by_one(views), pass);
     return pass.depth;
 }
@@ -100,7 +95,7 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
                 pass.sample(second);
                 declare_views(pass, views);
             },
-            [=, bias = applied_bias(recipe), limited = recipe.casters == "dual"](Recorder& r) {
+            [=, bias = applied_bias(input, recipe), limited = recipe.casters == Casters::dual](Recorder& r) {
                 set_viewport(r, views.views[i]);
                 r.bind(between_pipeline(limited));
                 set_views(r, views);
@@ -117,21 +112,24 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
 }  // namespace
 
 ShadowMap add_caster_depth(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
-    ShadowMap map;
-    map.texture = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
-    map.sampler = nearest();
-    CasterPass pass{.depth = map.texture};
-    if (recipe.casters == "ids") {
-        map.extra = create_map(input, views, "map ids", VK_FORMAT_R32_SFLOAT);
-        pass.color = map.extra;
+    TextureHandle depth = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
+    TextureHandle ids;
+    CasterPass pass{.depth = depth};
+    if (recipe.casters == Casters::ids) {
+        ids = create_map(input, views, "map ids", VK_FORMAT_R32_SFLOAT);
+        pass.color = ids;
         pass.clear_color = {.color = vec4(-1)};
-        pass.fragment = {"layout(location = 0) out float out_id;\n", "out_id = float(push.object);"};
+        pass.fragment = {"layout(location = 0) out float out_id;\n", "out_id = float(push.object);", {}};
         pass.by_object = true;
     }
     add_caster_passes(input, recipe, views, pass);
-    if (recipe.casters == "midpoint" || recipe.casters == "dual") {
-        const TextureHandle second = add_second(input, recipe, views, map.texture);
-        map.texture = add_between(input, recipe, views, map.texture, second);
+    if (recipe.casters == Casters::midpoint || recipe.casters == Casters::dual) {
+        const TextureHandle second = add_second(input, recipe, views, depth);
+        depth = add_between(input, recipe, views, depth, second);
+    }
+    ShadowMap map{.offers = {{"depth", depth, nearest()}}};
+    if (ids.valid()) {
+        map.offers.push_back({"ids", ids, nearest()});
     }
     return map;
 }

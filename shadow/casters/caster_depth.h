@@ -17,7 +17,7 @@ namespace gn {
 /// Objects that an id tells apart: as many as the view samples' two bytes.
 inline constexpr std::size_t max_object_ids = 65536;
 
-/// The depth map of recipe.casters. With ids, `extra` is R32F: the index into Scene::objects, or -1 where nothing casts.
+/// The depth map of recipe.casters. With ids it offers `ids` beside `depth`, R32F: the index into Scene::objects, or -1 where nothing casts.
 ShadowMap add_caster_depth(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
 }  // namespace gn

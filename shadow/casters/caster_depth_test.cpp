@@ -64,13 +64,13 @@ Maps draw(const Scene& scene, const std::string& overrides) {
     FrameGraph graph(test::device());
     const SceneHandles handles = import_scene(graph, gpu);
     const ViewSamples samples{.width = 64, .height = 64, .camera = scene.cameras[0]};
-    const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+    const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
     const Recipe recipe = load_recipe("hard,placement=fit,resolution=64" + overrides);
     Maps maps{recipe.placement->place(input, recipe)};
     const ShadowMap map = recipe.map->add_map(input, recipe, maps.views);
-    graph.keep(map.texture);
-    if (map.extra.valid()) {
-        graph.keep(map.extra);
+    graph.keep(map.texture());
+    if (const Offer* ids = map.find("ids"); ids != nullptr) {
+        graph.keep(ids->texture);
     }
     graph.execute(false);
     const auto read = [&](TextureHandle texture) {
@@ -79,8 +79,8 @@ Maps draw(const Scene& scene, const std::string& overrides) {
         std::memcpy(values.data(), bytes.data(), bytes.size());
         return values;
     };
-    maps.depth = read(map.texture);
-    maps.ids = map.extra.valid() ? read(map.extra) : std::vector<float>{};
+    maps.depth = read(map.texture());
+    maps.ids = map.find("ids") != nullptr ? read(map.find("ids")->texture) : std::vector<float>{};
     return maps;
 }
 

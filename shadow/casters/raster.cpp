@@ -89,8 +89,13 @@ void main() {
 }
 )";
 
+/// Bindings of the blocks and textures that every caster shader reads; a map's own come after them.
+constexpr unsigned caster_bindings = 3;
+
 constexpr const char* fragment_head = R"(
+#include "shadow/light_view.h"
 #include "shadow/receiver/paraboloid.glsl"
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
 #ifdef GN_MASKED
 layout(binding = 2) uniform sampler2D base_color_texture;
@@ -179,9 +184,10 @@ RasterDesc caster_pipeline(const CasterPass& pass, const Variant& variant) {
         desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + paraboloid_text};
     }
     if (needs_fragment) {
-        desc.fragment = ShaderSource{
-            ShaderKind::fragment, pass.name + ".frag",
-            defines + pass.fragment.includes + fragment_head + fragment_main + pass.fragment.body + "\n}\n"};
+        desc.fragment =
+            ShaderSource{ShaderKind::fragment, pass.name + ".frag",
+                         defines + pass.fragment.includes + fragment_head + pass.fragment.inputs.text(caster_bindings) +
+                             fragment_main + pass.fragment.body + "\n}\n"};
     }
     desc.cull = variant.faces.culled;
     desc.depth_bias = variant.faces.pushed;
@@ -207,9 +213,7 @@ void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const
     r.bind(caster_pipeline(pass, {masked, first.affine_depth == 0, views.layered, first.paraboloid > 0, faces}));
     r.depth_bias(push_units, push_pixels);
     set_views(r, views);
-    if (pass.bind_values) {
-        pass.bind_values(r);
-    }
+    pass.fragment.inputs.set(r);
     r.vertex_buffer(handles.positions);
     r.index_buffer(handles.indices);
 }
@@ -288,8 +292,8 @@ void CasterDraw::record(Recorder& r) const {
     constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
     constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
     const std::vector<std::uint32_t> drawn = objects();
-    if (recipe.casters == "front" || recipe.casters == "back") {
-        draw(r, recipe.casters == "front" ? fronts : backs, drawn);
+    if (recipe.casters == Casters::front || recipe.casters == Casters::back) {
+        draw(r, recipe.casters == Casters::front ? fronts : backs, drawn);
         return;
     }
 
@@ -319,9 +323,7 @@ void CasterDraw::declare(PassBuilder& builder) const {
     builder.storage_read(handles.colors);
     sample_textures(builder, handles);
     declare_views(builder, views);
-    if (pass.declare) {
-        pass.declare(builder);
-    }
+    pass.fragment.inputs.declare(builder);
 }
 
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {

@@ -3,6 +3,7 @@
 // more than depth, what a fragment writes.
 #pragma once
 
+#include "gpu/shader_inputs.h"
 #include "shadow/recipe/recipe.h"
 #include "shadow/stages.h"
 
@@ -12,20 +13,19 @@ namespace gn {
 
 /// What a map's fragments write besides depth.
 struct CasterFragment {
-    std::string includes;  ///< GLSL before main: includes, uniform blocks
-    std::string
-        body;  ///< GLSL in main; reads `float depth` (linear, [0,1]) and `vec2 slope` (its change from texel to texel,
-               ///< none where it was clamped), and writes the outputs that it declared in `includes`
+    std::string includes;  ///< GLSL before main: includes, outputs
+    /// GLSL in main; reads `float depth` (linear, [0,1]), `vec2 slope` (its change from texel to texel, none where it was
+    /// clamped), views[push.view] and what `inputs` declare, and writes the outputs.
+    std::string body;
+    ShaderInputs inputs;
 };
 
 struct CasterPass {
     std::string name = "map";
     TextureHandle color;  ///< invalid: none
     ClearValue clear_color;
-    TextureHandle depth;                         ///< D32; its layers as the views'
-    CasterFragment fragment;                     ///< empty: depth only
-    std::function<void(Recorder&)> bind_values;  ///< sets what `includes` declares
-    std::function<void(PassBuilder&)> declare;   ///< declares what it reads beyond the casters; empty: nothing
+    TextureHandle depth;      ///< D32; its layers as the views'
+    CasterFragment fragment;  ///< empty: depth only
     bool by_object = false;   ///< one draw an object; `body` may read int push.object; fronts win ties with backs
     bool every_side = false;  ///< backs of one-sided materials too: as what lies behind, not as what casts
 };

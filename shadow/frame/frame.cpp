@@ -4,6 +4,7 @@
 
 #include "shadow/frame/history.h"
 #include "shadow/frame/map_memory.h"
+#include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/recipe/check_recipe.h"
@@ -23,7 +24,8 @@ Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
         const LightViews views = place_views(input, recipe);
         ShadowMap map = recipe.map->add_map(input, recipe, views);
         map.part = recipe.map;
-        check_map_memory(input, recipe, map.texture);
+        add_derived(input.graph, *recipe.lookup, map);
+        check_map_memory(input, recipe, map.texture());
         visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
                                                           : add_resolve(input, recipe, views, map);
     }
@@ -64,8 +66,8 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
         if (!wanted(options, i)) {
             continue;
         }
-        const FrameInput input{graph.device(), graph, *scene.scene,   handles, frame.samples,
-                               nullptr,        i,     options.history};
+        const FrameInput input{graph.device(),          graph, *scene.scene,   handles, frame.samples,
+                               &scene.scene->lights[i], i,     options.history};
         try {
             frame.visibility.back() = add_shadow(input, recipe).image;
             graph.keep(frame.visibility.back());
@@ -76,7 +78,7 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
 
     // Shading.
     graph.group("shading");
-    const FrameInput input{graph.device(), graph, *scene.scene, handles, frame.samples, nullptr, 0};
+    const FrameInput input{graph.device(), graph, *scene.scene, handles, frame.samples};
     if (options.picture) {
         frame.picture = add_shading(input, frame.visibility);
         graph.keep(frame.picture);
@@ -189,7 +191,7 @@ Image shade(Device& device, SceneGpu& scene, const Camera& camera, uint width, u
                                           std::as_bytes(std::span(visibility[i].values))));
         given[i] = graph.import(textures.back());
     }
-    const FrameInput input{device, graph, *scene.scene, handles, samples, nullptr, 0};
+    const FrameInput input{device, graph, *scene.scene, handles, samples};
     const TextureHandle picture = add_shading(input, given);
     graph.keep(picture);
     graph.execute(false);

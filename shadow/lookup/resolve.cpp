@@ -8,26 +8,17 @@
 namespace gn {
 namespace {
 
-constexpr const char* bindings_text = R"(
-layout(binding = 4) uniform sampler2DArray shadow_map;
-layout(binding = 5) uniform sampler2DArray shadow_map_extra;
-layout(binding = 6, r32f) uniform writeonly image2D visibility;
-#ifdef GN_CASTER_IDS
-layout(binding = 8) uniform sampler2D gbuffer_material;
-#endif
-)";
-
+// A fragment pass: rectangles of it are skipped whole, and software drivers run it faster than a dispatch.
 constexpr const char* main_text = R"(
+layout(location = 0) out float out_visibility;
+
 float visibility_in(GnReceiver receiver, int index) {
-    GnProjected projected = gn_project(receiver, views[index], u.bias);
-    return projected.inside ? gn_unit(GN_LOOKUP) : 1.0;
+    GnLookup at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);
+    return at.projected.inside ? gn_unit(GN_LOOKUP(at)) : 1.0;
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
-        return;
-    }
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
     float v = 0.0;
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
@@ -37,63 +28,95 @@ void main() {
 #endif
         GnChoice choice = GN_CHOOSE(receiver, placement);
         v = visibility_in(receiver, choice.first);
-        if (choice.second >= 0 && choice.weight > 0.0) {
+        if (GN_TWO_VIEWS && choice.second >= 0 && choice.weight > 0.0) {
             v = mix(v, visibility_in(receiver, choice.second), choice.weight);
         }
     }
-    imageStore(visibility, pixel, vec4(v));
+    out_visibility = v;
 }
 )";
-
-std::string member(const Part& part, std::string_view name) {
-    return part.params_type.empty() ? "" : fmt::format("{} {};", part.params_type, name);
-}
 
 std::string prologue_of(const Part& part, const Recipe& recipe) {
     return part.prologue != nullptr ? part.prologue(recipe) : "";
 }
 
-/// What a map's function may use besides its arguments; `filtered` calls it through GN_MAP_VISIBILITY.
-std::string map_call(const Part& map) {
-    return fmt::format(
-        "#define GN_MAP_VISIBILITY(projected, ddx_ts, ddy_ts) "
-        "gn_{}_visibility(shadow_map, shadow_map_extra, projected, ddx_ts, ddy_ts{})\n",
-        identifier(map.id), map.params_type.empty() ? "" : ", u.map_params");
+std::string offer_name(std::string_view name) {
+    return "map_" + identifier(name);
 }
 
-ComputeDesc resolve_shader(const Device& device, const Recipe& recipe, const LightViews& views) {
-    const Part& placement = *views.part;
-    const Part& map = *recipe.map;
+/// The arguments of a part's function: the map's textures that it names, and its parameters. A texture that the map does
+/// not offer in this recipe is replaced by the first, which the part does not read.
+std::string arguments(const ShadowMap& map, std::span<const std::string_view> names) {
+    std::string text;
+    for (const std::string_view name : names) {
+        const Offer* offer = map.find(name);
+        text += ", " + offer_name(offer != nullptr ? offer->name : map.offers.front().name);
+    }
+    return text;
+}
+
+std::vector<std::string_view> read_by(const Part& lookup) {
+    std::vector<std::string_view> names;
+    for (const std::string_view need : lookup.needs) {
+        if (need != "filterable") {
+            names.push_back(need);
+        }
+    }
+    names.insert(names.end(), lookup.optional.begin(), lookup.optional.end());
+    return names;
+}
+
+/// The calls of the lookup's function, and of the map's, by which `filtered` asks the map.
+std::string calls(const Recipe& recipe, const ShadowMap& map) {
     const Part& lookup = *recipe.lookup;
-    std::string text = expect_text(device) + receiver_defines(recipe, views) +
-                       (recipe.casters == "ids" ? "#define GN_CASTER_IDS\n" : "");
+    return fmt::format("#define GN_LOOKUP(at) gn_{}_visibility(at{}{})\n", identifier(lookup.id),
+                       arguments(map, read_by(lookup)), lookup.params_type.empty() ? "" : ", u.lookup_params");
+}
+
+std::string map_call(const Part& part, const ShadowMap& map) {
+    return fmt::format("#define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) gn_{}_visibility(at{}, ddx_ts, ddy_ts{})\n",
+                       identifier(part.id), arguments(map, part.textures),
+                       part.params_type.empty() ? "" : ", u.map_params");
+}
+
+/// What the shader reads: view samples, views, the map's offers, and the parts' parameters.
+ShaderInputs inputs_of(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
+    ShaderInputs inputs = sample_inputs(input, recipe, views);
+    for (const Offer& offer : map.offers) {
+        inputs.texture("sampler2DArray", offer_name(offer.name), offer.texture, offer.sampler);
+    }
+    if (recipe.casters == Casters::ids) {
+        inputs.texture("sampler2D", "gbuffer_material", input.samples.material);
+    }
+    for (const auto& [part, name] : {std::pair{recipe.lookup, "lookup_params"}, {recipe.map, "map_params"}}) {
+        if (!part->params_type.empty()) {
+            inputs.constant_bytes(part->params_type, name, recipe.block(*part).bytes());
+        }
+    }
+    return inputs;
+}
+
+RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map,
+                          const ShaderInputs& inputs) {
+    const Part& placement = *views.part;
+    const Part& lookup = *recipe.lookup;
+    std::string text = expect_text(input.device) + receiver_defines(recipe, views) +
+                       (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "") +
+                       fmt::format("#define GN_TWO_VIEWS {}\n", views.views.size() > 1);
     text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
-    text += prologue_of(map, recipe) + include_line(map.glsl);
+    text += prologue_of(*recipe.map, recipe) + include_line(recipe.map->glsl);
     // A lookup that filters calls the map's function, so that the uniform block must stand before it.
     const std::string lookup_header = lookup.params_type.empty() || lookup.glsl.empty()
                                           ? ""
                                           : std::string(lookup.glsl.substr(0, lookup.glsl.rfind('.'))) + ".h";
-    text += include_line(lookup_header);
-    text += sample_bindings(member(lookup, "lookup_params") + " " + member(map, "map_params")) + bindings_text;
-    text += map.glsl.empty() ? "" : map_call(map);
+    text += include_line(lookup_header) + inputs.text();
+    text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
     text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
-    text += sample_functions(placement);
-    text += fmt::format("#define GN_LOOKUP gn_{}_visibility(receiver, projected, u.bias, shadow_map{})\n",
-                        identifier(lookup.id), lookup.params_type.empty() ? "" : ", u.lookup_params");
-    text += main_text;
-    return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, map.id, lookup.id), text},
-            lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
-}
-
-std::vector<std::byte> constants_of(const FrameInput& input, const Recipe& recipe) {
-    std::vector<std::byte> bytes = sample_constants(input, recipe);
-    for (const Part* part : {recipe.lookup, recipe.map}) {
-        if (!part->params_type.empty()) {
-            const std::span<const std::byte> more = recipe.block(*part).bytes();
-            bytes.insert(bytes.end(), more.begin(), more.end());
-        }
-    }
-    return bytes;
+    text += sample_functions(input.device, placement) + calls(recipe, map) + main_text;
+    RasterDesc desc = fullscreen(
+        {ShaderKind::fragment, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text});
+    desc.constants = lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{};
+    return desc;
 }
 
 }  // namespace
@@ -105,33 +128,21 @@ TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples) {
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     const Visibility result{create_visibility(input.graph, input.samples)};
-    const ViewSamples& samples = input.samples;
-    const bool ids = recipe.casters == "ids";
+    const ShaderInputs inputs = inputs_of(input, recipe, views, map);
     input.graph.add_pass(
         "lookup",
         [&](PassBuilder& pass) {
-            declare_samples(pass, samples, views);
-            if (ids) {
-                pass.sample(samples.material);
-            }
-            pass.sample(map.texture);
-            if (map.extra.valid()) {
-                pass.sample(map.extra);
-            }
-            pass.storage_write(result.image);
+            inputs.declare(pass);
+            pass.color(result.image, Load::clear);
         },
-        [shader = resolve_shader(input.device, recipe, views), bytes = constants_of(input, recipe), samples, views, map,
-         result, ids](Recorder& r) {
-            r.bind(shader);
-            set_samples(r, samples, views);
-            if (ids) {
-                r.set("gbuffer_material", samples.material);
+        [inputs, shader = resolve_shader(input, recipe, views, map, inputs), lit = lit_pixels(input)](Recorder& r) {
+            if (lit.z == 0 || lit.w == 0) {
+                return;
             }
-            r.set("shadow_map", map.texture, map.sampler);
-            r.set("shadow_map_extra", map.extra.valid() ? map.extra : map.texture, map.sampler);
-            r.set_storage("visibility", result.image);
-            r.set_bytes("u", bytes);
-            r.dispatch_pixels(samples.width, samples.height);
+            r.bind(shader);
+            inputs.set(r);
+            r.scissor(lit.x, lit.y, static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));
+            r.draw(3);
         });
     return result;
 }

@@ -9,13 +9,13 @@ namespace {
 std::vector<std::string> said_of(const char* expression) {
     static std::string text;
     text = fmt::format(
-        "float gn_wrong_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {{\n"
+        "float gn_wrong_visibility(GnLookup at, sampler2DArray depth) {{\n"
         "    return {};\n}}\n",
         expression);
     Part wrong;
     wrong.id = "wrong";
     wrong.stage = Stage::lookup;
-    wrong.needs = "depth";
+    wrong.needs = {"depth"};
     wrong.prologue = [](const Recipe&) { return text; };
     Recipe recipe = load_recipe("hard,resolution=64");
     recipe.lookup = &wrong;
@@ -31,12 +31,52 @@ std::vector<std::string> said_of(const char* expression) {
 
 TEST(ResolveRendered, SaysWhatItClampsWhereTheDeviceValidates) {
     // Not a number is made from what the compiler cannot know: the receiver's depth is never negative.
-    for (const char* wrong : {"1.001", "-0.001", "sqrt(-1.0 - projected.depth)", "1.0 / (projected.depth * 0.0)"}) {
+    for (const char* wrong :
+         {"1.001", "-0.001", "sqrt(-1.0 - at.projected.depth)", "1.0 / (at.projected.depth * 0.0)"}) {
         const std::vector<std::string> said = said_of(wrong);
         ASSERT_EQ(said.size(), 1U) << wrong;
         EXPECT_NE(said.front().find("outside [0, 1] or not a number"), std::string::npos) << said.front();
         EXPECT_NE(said.front().find("hard"), std::string::npos) << said.front();
     }
+}
+
+TEST(ResolveRendered, GivesLookupsTheLightTheViewAndWhatTheyName) {
+    // A lookup that needs a map's depth and what is derived of it, and would read ids where there were some.
+    Part ranged;
+    ranged.id = "ranged";
+    ranged.stage = Stage::lookup;
+    ranged.needs = {"depth", "min-max", "n-buffers"};
+    ranged.optional = {"ids"};
+    ranged.prologue = [](const Recipe&) {
+        return std::string(R"(
+float gn_ranged_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ranges, sampler2DArray squares,
+                           sampler2DArray ids) {
+    ivec3 texel = ivec3(floor(at.projected.uv_ts / at.projected.texel_ts), at.projected.layer);
+    float d = texelFetch(depth, texel, 0).r;
+    vec2 least = texelFetch(ranges, ivec3(0, 0, 0), textureQueryLevels(ranges) - 1).xy;
+    bool ranged = texelFetch(ranges, texel, 0).xy == vec2(d) && texelFetch(squares, texel, 0).xy == vec2(d);
+    bool whole = least.x <= d && d <= least.y && least.x < least.y;
+    bool told = at.light.kind == uint(GN_LIGHT_DIRECTIONAL) && at.light.intensity > 0.0 && at.view.resolution == 64.0;
+    return ranged && whole && told && at.bias.constant == 0.5 ? 1.0 : 0.0;
+}
+)");
+    };
+    Recipe recipe = load_recipe("hard,resolution=64,placement=single");
+    recipe.lookup = &ranged;
+    const Scene scene = load_scene("contact");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const FrameResult frame = render_frame(test::device(), gpu, scene.camera(""), recipe,
+                                           {.width = 32, .height = 32, .only_light = 0, .picture = false});
+    EXPECT_EQ(frame.refused.front(), "");
+    int counted = 0;
+    for (std::size_t i = 0; i < frame.samples.position_ws.size(); ++i) {
+        const vec4 p = frame.samples.position_ws[i];
+        if (p.w > 0.5F && gn_counted(scene.lights[0].shape, vec3(p), vec3(frame.samples.normal_ws[i]))) {
+            ++counted;
+            EXPECT_EQ(frame.visibility.front().values[i], 1.0F) << i;
+        }
+    }
+    EXPECT_GT(counted, 300);
 }
 
 TEST(ResolveRendered, IsSilentAboutRounding) {

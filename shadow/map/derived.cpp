@@ -2,7 +2,10 @@
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #include "shadow/map/derived.h"
 
+#include "shadow/recipe/part.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace gn {
@@ -134,6 +137,42 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
         }
     }
     return buffer;
+}
+
+std::span<const Derivation> derivations() {
+    static constexpr std::array<Derivation, 3> all{{
+        {"min-max", "depth", "A pyramid of least and greatest depths.", add_min_max_pyramid},
+        {"n-buffers", "depth", "Least and greatest depths of any square of 2^l texels.",
+         [](FrameGraph& graph, TextureHandle depth) { return add_n_buffer(graph, depth, NBuffer::min_max); }},
+        {"mean-n-buffers", "moments", "Means of any square of 2^l texels.",
+         [](FrameGraph& graph, TextureHandle moments) { return add_n_buffer(graph, moments, NBuffer::mean); }},
+    }};
+    return all;
+}
+
+namespace {
+
+const Derivation* derivation_of(std::string_view name) {
+    const auto all = derivations();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Derivation& d) { return d.name == name; });
+    return found != all.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
+bool map_gives(const Part& map, std::string_view need) {
+    const Derivation* derived = derivation_of(need);
+    return holds(map.gives, need) || (derived != nullptr && holds(map.gives, derived->from));
+}
+
+void add_derived(FrameGraph& graph, const Part& lookup, ShadowMap& map) {
+    for (const std::string_view need : lookup.needs) {
+        const Derivation* derived = derivation_of(need);
+        const Offer* from = derived != nullptr ? map.find(derived->from) : nullptr;
+        if (from != nullptr && map.find(need) == nullptr) {
+            map.offers.push_back({std::string(need), derived->add(graph, from->texture), nearest()});
+        }
+    }
 }
 
 }  // namespace gn

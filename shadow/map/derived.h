@@ -5,7 +5,7 @@
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #pragma once
 
-#include "gpu/frame_graph.h"
+#include "shadow/stages.h"
 
 namespace gn {
 
@@ -22,6 +22,19 @@ enum class NBuffer {
 /// right and down, clamped to the map. `levels` is the return value's layers over the source's: 1 + floor(log2(side)),
 /// at most `most_levels`. Throws Error where the device has too few layers.
 TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels = 16);
+
+/// What can be made of a texture that a map gives, for lookups that name it in `needs`.
+struct Derivation {
+    std::string_view name;      ///< "min-max"
+    std::string_view from;      ///< "depth"
+    std::string_view contents;  ///< one sentence
+    TextureHandle (*add)(FrameGraph&, TextureHandle);
+};
+std::span<const Derivation> derivations();
+/// Whether a map part gives what a lookup names, itself or derived.
+bool map_gives(const Part& map, std::string_view need);
+/// Adds to the map's offers what the lookup needs and the map does not give itself: once, however many read it.
+void add_derived(FrameGraph& graph, const Part& lookup, ShadowMap& map);
 
 /// Levels that add_n_buffer makes for a map of this side.
 std::uint32_t n_buffer_levels(std::uint32_t side, std::uint32_t most_levels = 16);

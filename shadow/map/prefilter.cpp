@@ -7,10 +7,24 @@
 namespace gn {
 namespace {
 
-constexpr const char* layer_head = R"(
-layout(binding = 15) uniform sampler2DArray source;
-layout(push_constant) uniform Push { int push_layer; };
-)";
+/// A software driver fetches texels several times faster as those of an image, where GLSL has a name for the format.
+bool reads_images(const FrameInput& input, TextureHandle source) {
+    return input.device.info().cpu && !image_format(input.graph.desc(source).format).empty();
+}
+
+/// What a pass over a layer reads: the source as GN_SOURCE(ivec3 texel) of GN_SOURCE_SIZE texels, and the layer.
+std::string layer_head(const FrameInput& input, TextureHandle source) {
+    const std::string declared = reads_images(input, source)
+                                     ? fmt::format(
+                                           "layout(binding = 0, {}) uniform readonly image2DArray source;\n"
+                                           "#define GN_SOURCE(texel) imageLoad(source, texel)\n"
+                                           "#define GN_SOURCE_SIZE imageSize(source).xy\n",
+                                           image_format(input.graph.desc(source).format))
+                                     : "layout(binding = 0) uniform sampler2DArray source;\n"
+                                       "#define GN_SOURCE(texel) texelFetch(source, texel, 0)\n"
+                                       "#define GN_SOURCE_SIZE textureSize(source, 0).xy\n";
+    return declared + "layout(push_constant) uniform Push { int push_layer; };\n";
+}
 
 /// A texture like `source` with one sample and `mips` levels.
 TextureHandle create_like(const FrameInput& input, TextureHandle source, std::string name, std::uint32_t mips) {
@@ -61,13 +75,13 @@ std::string blur_text(const std::vector<float>& weights, const char* step) {
     }
     text += fmt::format(R"();
 void main() {{
-    ivec2 last = textureSize(source, 0).xy - 1;
+    ivec2 last = GN_SOURCE_SIZE - 1;
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    out_moments = weights[0] * texelFetch(source, ivec3(texel, push_layer), 0);
+    out_moments = weights[0] * GN_SOURCE(ivec3(texel, push_layer));
     for (int i = 1; i < {}; ++i) {{
         ivec2 step = i * ivec2({});
-        out_moments += weights[i] * (texelFetch(source, ivec3(clamp(texel + step, ivec2(0), last), push_layer), 0) +
-                                     texelFetch(source, ivec3(clamp(texel - step, ivec2(0), last), push_layer), 0));
+        out_moments += weights[i] * (GN_SOURCE(ivec3(clamp(texel + step, ivec2(0), last), push_layer)) +
+                                     GN_SOURCE(ivec3(clamp(texel - step, ivec2(0), last), push_layer)));
     }}
 }}
 )",
@@ -113,8 +127,7 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
                        .color = target,
                        .clear_color = map.clear,
                        .depth = map.depth.valid() ? map.depth : create_depth(input, views, map),
-                       .fragment = map.fragment,
-                       .bind_values = map.bind_values});
+                       .fragment = map.fragment});
     return map.samples > 1 ? add_resolve_samples(input, target, map) : target;
 }
 
@@ -150,26 +163,21 @@ TextureHandle add_blur(const FrameInput& input, TextureHandle source, int kernel
 }
 
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass) {
-    RasterDesc desc = fullscreen({ShaderKind::fragment, pass.name, layer_head + pass.text});
+    const bool image = reads_images(input, source);
+    const RasterDesc desc = fullscreen(
+        {ShaderKind::fragment, pass.name, pass.includes + layer_head(input, source) + pass.inputs.text(1) + pass.text});
     for (std::uint32_t layer = 0; layer < input.graph.desc(target).layers; ++layer) {
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {
-                builder.sample(source, one_mip(0));
-                for (const auto& [name, texture] : pass.more) {
-                    builder.sample(texture, one_mip(0));
-                }
+                image ? builder.storage_read(source, one_mip(0)) : builder.sample(source, one_mip(0));
+                pass.inputs.declare(builder);
                 builder.color(target, Load::discard, {}, one_layer(layer));
             },
-            [desc, pass, source, layer](Recorder& r) {
+            [desc, inputs = pass.inputs, source, layer, image](Recorder& r) {
                 r.bind(desc);
-                r.set("source", source, pass.sampler, one_mip(0));
-                for (const auto& [name, texture] : pass.more) {
-                    r.set(name, texture, pass.sampler, one_mip(0));
-                }
-                if (pass.bind_values) {
-                    pass.bind_values(r);
-                }
+                image ? r.set_storage("source", source, one_mip(0)) : r.set("source", source, nearest(), one_mip(0));
+                inputs.set(r);
                 r.push_value(static_cast<std::int32_t>(layer));
                 r.draw(3);
             });
@@ -195,13 +203,14 @@ std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resoluti
     return blurs(params.blur, params.radius) ? 1 : all_mips(params, resolution);
 }
 
-ShadowMap filtered_map(const FrameInput& input, TextureHandle source, const GnPrefilterParams& params) {
-    ShadowMap map;
-    map.texture = add_blur(input, source, params.blur, params.radius, all_mips(params, input.graph.desc(source).width));
-    add_mips(input, map.texture);
-    map.sampler = trilinear();
-    map.sampler.anisotropy = static_cast<float>(params.anisotropy);
-    return map;
+ShadowMap filtered_map(const FrameInput& input, std::string_view name, TextureHandle source,
+                       const GnPrefilterParams& params) {
+    const TextureHandle blurred =
+        add_blur(input, source, params.blur, params.radius, all_mips(params, input.graph.desc(source).width));
+    add_mips(input, blurred);
+    SamplerDesc sampler = trilinear();
+    sampler.anisotropy = static_cast<float>(params.anisotropy);
+    return {.offers = {{std::string(name), blurred, sampler}}};
 }
 
 Guard blur_guard(const GnPrefilterParams& params) {

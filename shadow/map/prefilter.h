@@ -15,9 +15,8 @@ struct MomentMap {
     int samples = 1;          ///< 1 or 4; resolved by the mean of the stored values
     ClearValue clear;         ///< what a texel without caster stores
     CasterFragment fragment;  ///< writes `layout(location = 0) out vec4 out_moments` from `depth`
-    std::function<void(Recorder&)> bind_values;
-    TextureHandle depth;     ///< create_depth, for who reads it afterwards; invalid: nobody does
-    std::uint32_t mips = 1;  ///< of the returned texture; filled by add_mips; 1 while it has samples
+    TextureHandle depth;      ///< create_depth, for who reads it afterwards; invalid: nobody does
+    std::uint32_t mips = 1;   ///< of the returned texture; filled by add_mips; 1 while it has samples
 };
 /// The D32 that a moment map is drawn with: its layers and samples.
 TextureHandle create_depth(const FrameInput& input, const LightViews& views, const MomentMap& map);
@@ -32,8 +31,9 @@ void add_mips(const FrameInput& input, TextureHandle texture);
 
 /// Levels that a map is drawn with: those asked for, or one where a blur makes the copy that is read.
 std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resolution);
-/// The end that blurred maps share: blur, mipmap, and read trilinearly. `source` has drawn_mips levels.
-ShadowMap filtered_map(const FrameInput& input, TextureHandle source, const GnPrefilterParams& params);
+/// The end that blurred maps share: blur, mipmap, and read trilinearly; the one offer has this name. `source` has drawn_mips levels.
+ShadowMap filtered_map(const FrameInput& input, std::string_view name, TextureHandle source,
+                       const GnPrefilterParams& params);
 /// How far a blurred map's texels reach.
 Guard blur_guard(const GnPrefilterParams& params);
 /// The sentence that refuses a count of samples that add_moments does not take, or "". `parameter`: "vsm.samples".
@@ -50,14 +50,13 @@ ParamRow max_deviation_row(std::size_t offset);
 ParamRow bleeding_row(std::size_t offset);
 ParamRow reduction_row(std::size_t offset);
 
-/// One fragment pass a layer over a whole texture: `text` is GLSL with main(); `source` is bound as sampler2DArray
-/// "source" with the layer in push constant int `push_layer`, after your own declarations.
+/// One fragment pass a layer over a whole texture. `text` reads GN_SOURCE(ivec3 texel), the texels of the source's first
+/// level, push_layer, gl_FragCoord and what `inputs` declare.
 struct LayerPass {
     std::string name;
-    std::string text;  ///< must contain: layout(location = 0) out vec4 ...; reads `source`, `push_layer`, gl_FragCoord
-    SamplerDesc sampler;
-    std::vector<std::pair<std::string, TextureHandle>> more;  ///< further sampler2DArray textures by name
-    std::function<void(Recorder&)> bind_values;
+    std::string includes;  ///< GLSL that `inputs` need
+    std::string text;      ///< must contain: layout(location = 0) out vec4 ...
+    ShaderInputs inputs;
 };
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass);
 

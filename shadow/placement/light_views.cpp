@@ -220,10 +220,10 @@ GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tan
 void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& recipe) {
     const vec3 eye_ws(input.light().shape.position_ws);
     const double far = reach_of(input);
-    const double share = std::min(0.4, static_cast<double>(guard_of(recipe).texels) / recipe.resolution);
+    const double share = std::min(0.4, static_cast<double>(guard_of(input, recipe).texels) / recipe.resolution);
 
     // A world radius is widest in angle where receivers are nearest; it is held to a tenth of the face.
-    const double tangent = 1 / (1 - 2 * share) + (guard_of(recipe).metres > 0 ? 0.1 : 0.0);
+    const double tangent = 1 / (1 - 2 * share) + (guard_of(input, recipe).metres > 0 ? 0.1 : 0.0);
     const std::array<std::pair<vec3, vec3>, 6> faces{{{vec3(1, 0, 0), vec3(0, 1, 0)},
                                                       {vec3(-1, 0, 0), vec3(0, 1, 0)},
                                                       {vec3(0, 1, 0), vec3(0, 0, 1)},

@@ -214,11 +214,15 @@ ConvexBody potential_receivers(const FrameInput& input, double near, double far)
     return body;
 }
 
-Guard guard_of(const Recipe& recipe) {
+Guard guard_of(const FrameInput& input, const Recipe& recipe) {
+    return guard_of(recipe, input.light(), input.scene.bounds_ws);
+}
+
+Guard guard_of(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
     Guard total;
     for (const Part* part : {recipe.map, recipe.lookup}) {
         if (part != nullptr && part->guard != nullptr) {
-            const Guard guard = part->guard(recipe);
+            const Guard guard = part->guard(recipe, light, bounds_ws);
             total.texels += guard.texels;
             total.metres += guard.metres;
             total.pixels += guard.pixels;

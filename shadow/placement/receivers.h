@@ -41,7 +41,8 @@ ConvexBody potential_receivers(const FrameInput& input);
 ConvexBody potential_receivers(const FrameInput& input, double near, double far);
 
 /// The kernels' reach of the recipe's map and lookup together.
-Guard guard_of(const Recipe& recipe);
+Guard guard_of(const Recipe& recipe, const Light& light, const Box& bounds_ws);
+Guard guard_of(const FrameInput& input, const Recipe& recipe);
 
 /// Texels between a view's near plane and the nearest receiver: the bias and the cone move what is compared towards the
 /// light, and what casts before the near plane is stored on it. Without this room flat receivers come before it.

@@ -141,7 +141,7 @@ std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, 
     plane.length = last - plane.start;
 
     // Room for kernels; a world radius reaches beyond a light's cone only where nothing receives.
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(input, recipe);
     plane.reach = positional ? 0 : static_cast<double>(guard.metres);
     plane.share = std::min(0.4, static_cast<double>(guard.texels) / recipe.resolution);
     const bool flat = plane.far_spots.size() < 3 || plane.far < 1.001 * plane.near || plane.length <= 0;
@@ -162,9 +162,9 @@ LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_ne
     // Fit without a warp; receivers around the light take six views.
     GnLightView fitted;
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
-        fitted = fit_orthographic(body, light, recipe.resolution, guard_of(recipe));
+        fitted = fit_orthographic(body, light, recipe.resolution, guard_of(input, recipe));
     } else {
-        const Fitted fit = fit_perspective(body, light, recipe.resolution, guard_of(recipe));
+        const Fitted fit = fit_perspective(body, light, recipe.resolution, guard_of(input, recipe));
         if (!fit.valid) {
             add_cube_views(views, input, recipe);
             return views;

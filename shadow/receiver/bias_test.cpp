@@ -218,10 +218,10 @@ TEST(BiasLaws, TexelsGrowWithTheKernelUnlessThePlaneIsFollowed) {
 }
 
 TEST(BiasLaws, ReachIsTheKernelsHalfWidth) {
-    EXPECT_EQ(applied_bias(load_recipe("hard")).reach, 0);
-    EXPECT_EQ(applied_bias(load_recipe("pcf,pcf.kernel=nxn,pcf.size=7")).reach, 4);
-    EXPECT_EQ(applied_bias(load_recipe("pcf,pcf.kernel=vogel,pcf.radius=6")).reach, 6);
-    EXPECT_NEAR(applied_bias(load_recipe("pcf,pcf.kernel=vogel,pcf.radius_world=0.3")).reach_world, 0.3F, 1e-6);
+    EXPECT_EQ(applied_bias(load_recipe("hard"), {}, {}).reach, 0);
+    EXPECT_EQ(applied_bias(load_recipe("pcf,pcf.kernel=nxn,pcf.size=7"), {}, {}).reach, 4);
+    EXPECT_EQ(applied_bias(load_recipe("pcf,pcf.kernel=vogel,pcf.radius=6"), {}, {}).reach, 6);
+    EXPECT_NEAR(applied_bias(load_recipe("pcf,pcf.kernel=vogel,pcf.radius_world=0.3"), {}, {}).reach_world, 0.3F, 1e-6);
 }
 
 TEST(BiasRendered, SlopeCoversAWideKernelOnlyWhereItGrowsWithIt) {

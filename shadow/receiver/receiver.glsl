@@ -52,6 +52,15 @@ struct GnProjected {
     bool inside;            // false: the view does not see the receiver
 };
 
+// What a lookup is given of one receiver in one light view.
+struct GnLookup {
+    GnReceiver receiver;
+    GnProjected projected;
+    GnBias bias;
+    GnLight light;
+    GnLightView view;
+};
+
 // A choice of views for a receiver: V = mix(V(first), V(second), weight); second is -1 where one view suffices.
 struct GnChoice {
     int first;
@@ -229,6 +238,9 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
 
 // What a host may fix when it compiles: whether there is a cone, whether taps follow the receiver's plane, and that no view
 // of the placement is perspective or bent. Left open, all of it is decided tap by tap.
+//   #define GN_BIAS_CONE 0
+//   #define GN_BIAS_PLANE true
+//   #define GN_AFFINE_VIEWS 1
 #if defined(__cplusplus)
 #define GN_BIAS_CONE 1
 #define GN_BIAS_PLANE (bias.receiver_plane != 0)

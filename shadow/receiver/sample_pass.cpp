@@ -8,26 +8,10 @@
 namespace gn {
 namespace {
 
-constexpr const char* bindings_text = R"(
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D gbuffer_position;
-layout(binding = 1) uniform sampler2D gbuffer_normal;
-#ifdef GN_VIEW_COUNT
-layout(binding = 2, scalar) uniform Views { GnLightView views[GN_VIEW_COUNT]; };
-#else
-layout(binding = 2, scalar) readonly buffer Views { GnLightView views[]; };
-#endif
-layout(binding = 3, scalar) uniform Placement { GnPlacementData placement; };
-layout(binding = 7, scalar) uniform Constants {
-    GnViewConstants view;
-    GnLight light;
-    GnBias bias;
-)";
-
 constexpr const char* read_text = R"(
 bool read_sample(ivec2 pixel, out GnReceiver receiver) {
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    vec4 normal = texelFetch(gbuffer_normal, pixel, 0);
+    vec4 position = GN_POSITION(pixel);
+    vec4 normal = GN_NORMAL(pixel);
     if (position.w < 0.5 || !gn_counted(u.light, position.xyz, normal.xyz)) {
         return false;
     }
@@ -36,18 +20,36 @@ bool read_sample(ivec2 pixel, out GnReceiver receiver) {
 }
 )";
 
+/// A software driver fetches texels several times faster as those of an image.
+bool reads_images(const Device& device) {
+    return device.info().cpu;
+}
+
+bool as_uniform(const LightViews& views) {
+    // Uniform blocks of this many views fit every device; what is uniform is read once for many pixels.
+    constexpr std::size_t most_uniform = 16384 / sizeof(GnLightView);
+    return views.views.size() <= most_uniform;
+}
+
+void add_views(ShaderInputs& inputs, const LightViews& views) {
+    const std::string_view kind = as_uniform(views) ? "uniform" : "readonly buffer";
+    const std::string_view members = as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];";
+    if (views.buffer.valid()) {
+        inputs.buffer(kind, "Views", members, views.buffer);
+    } else {
+        inputs.block(kind, "Views", members, std::as_bytes(std::span(views.views)));
+    }
+    if (views.data_buffer.valid()) {
+        inputs.buffer("uniform", "Placement", "GnPlacementData placement;", views.data_buffer);
+    } else {
+        inputs.block("uniform", "Placement", "GnPlacementData placement;", std::as_bytes(std::span(views.data)));
+    }
+}
+
 }  // namespace
 
 std::string include_line(std::string_view path) {
     return path.empty() ? "" : fmt::format("#include \"{}\"\n", path);
-}
-
-std::string sample_bindings(std::string_view members) {
-    return fmt::format("{}    {}\n}} u;\n", bindings_text, members);
-}
-
-std::string sample_functions(const Part& placement) {
-    return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}", identifier(placement.id), read_text);
 }
 
 std::string receiver_defines(const Recipe& recipe, const LightViews& views) {
@@ -55,17 +57,14 @@ std::string receiver_defines(const Recipe& recipe, const LightViews& views) {
         const mat4& m = view.cs_from_ws;
         return view.paraboloid == 0 && vec4(m[0].w, m[1].w, m[2].w, m[3].w) == vec4(0, 0, 0, 1);
     });
-    // Uniform blocks of this many views fit every device; what is uniform is read once for many pixels.
-    constexpr std::size_t most_uniform = 16384 / sizeof(GnLightView);
-    const std::size_t count = views.views.size();
     return fmt::format("#define GN_BIAS_CONE {:d}\n#define GN_BIAS_PLANE {}\n#define GN_AFFINE_VIEWS {:d}\n",
                        recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, affine) +
-           (count <= most_uniform ? fmt::format("#define GN_VIEW_COUNT {}\n", count) : "");
+           (as_uniform(views) ? fmt::format("#define GN_VIEW_COUNT {}\n", views.views.size()) : "");
 }
 
-GnBias applied_bias(const Recipe& recipe) {
+GnBias applied_bias(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
     // A guard holds two texels beyond the kernel: the receiver's own, and the one that a tap falls into.
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(recipe, light, bounds_ws);
     GnBias bias = recipe.bias;
     bias.reach = std::max(0.0F, guard.texels - 2);
     bias.reach_world = guard.metres;
@@ -73,28 +72,60 @@ GnBias applied_bias(const Recipe& recipe) {
     return bias;
 }
 
-std::vector<std::byte> sample_constants(const FrameInput& input, const Recipe& recipe) {
-    std::vector<std::byte> bytes;
-    const auto append = [&bytes](const auto& value) {
-        const auto more = std::as_bytes(std::span(&value, 1));
-        bytes.insert(bytes.end(), more.begin(), more.end());
-    };
-    append(input.samples.constants);
-    append(input.light().shape);
-    append(applied_bias(recipe));
-    return bytes;
+GnBias applied_bias(const FrameInput& input, const Recipe& recipe) {
+    return applied_bias(recipe, input.light(), input.scene.bounds_ws);
 }
 
-void declare_samples(PassBuilder& pass, const ViewSamples& samples, const LightViews& views) {
-    pass.sample(samples.position);
-    pass.sample(samples.normal);
-    declare_views(pass, views);
+ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, input.samples);
+    add_views(inputs, views);
+    inputs.constant("GnViewConstants", "view", input.samples.constants);
+    inputs.constant("GnLight", "light", input.light().shape);
+    inputs.constant("GnBias", "bias", applied_bias(input, recipe));
+    return inputs;
 }
 
-void set_samples(Recorder& r, const ViewSamples& samples, const LightViews& views) {
-    r.set("gbuffer_position", samples.position);
-    r.set("gbuffer_normal", samples.normal);
-    set_views(r, views);
+std::string sample_functions(const Device& device, const Part& placement) {
+    return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}{}", identifier(placement.id), gbuffer_defines(device),
+                       read_text);
+}
+
+void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples) {
+    for (const auto& [name, texture] :
+         {std::pair{"gbuffer_position", samples.position}, {"gbuffer_normal", samples.normal}}) {
+        if (reads_images(device)) {
+            inputs.image("rgba32f", "readonly", "image2D", name, texture);
+        } else {
+            inputs.texture("sampler2D", name, texture);
+        }
+    }
+}
+
+std::string gbuffer_defines(const Device& device) {
+    return reads_images(device) ? "#define GN_POSITION(pixel) imageLoad(gbuffer_position, pixel)\n"
+                                  "#define GN_NORMAL(pixel) imageLoad(gbuffer_normal, pixel)\n"
+                                : "#define GN_POSITION(pixel) texelFetch(gbuffer_position, pixel, 0)\n"
+                                  "#define GN_NORMAL(pixel) texelFetch(gbuffer_normal, pixel, 0)\n";
+}
+
+ivec4 lit_pixels(const FrameInput& input) {
+    const ivec2 size(static_cast<int>(input.samples.width), static_cast<int>(input.samples.height));
+    dvec2 low(1e300);
+    dvec2 high(-1e300);
+    for (const dvec3& p_ws : potential_receivers(input).vertices()) {
+        const dvec4 p_cs = dmat4(input.samples.constants.cs_from_ws) * dvec4(p_ws, 1);
+        if (p_cs.w <= 0) {
+            return {0, 0, size.x, size.y};
+        }
+        const dvec2 p_ss = (dvec2(p_cs) / p_cs.w * 0.5 + 0.5) * dvec2(size);
+        low = glm::min(low, p_ss);
+        high = glm::max(high, p_ss);
+    }
+    // A pixel more on every side covers the rounding of both ways to the picture.
+    const ivec2 first(glm::clamp(glm::floor(low) - 1.0, dvec2(0), dvec2(size)));
+    const ivec2 last(glm::clamp(glm::ceil(high) + 1.0, dvec2(0), dvec2(size)));
+    return {first, glm::max(last - first, ivec2(0))};
 }
 
 void declare_views(PassBuilder& pass, const LightViews& views) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What passes share that look at every view sample through the light views: the head of their shaders and what it reads.
+// What passes share that look at every view sample through the light views: the one reader of view samples, and what its
+// shaders read.
 #pragma once
 
+#include "gpu/shader_inputs.h"
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
@@ -10,24 +12,26 @@ namespace gn {
 /// `#include "path"`, or "" for a part without GLSL.
 std::string include_line(std::string_view path);
 
-/// GLSL: a workgroup of 8 x 8 pixels; the G-buffer, the blocks `Views` and `Placement` at bindings 0 to 3; at binding 7
-/// the block `u` with view, light, bias and the given members. Stands after the includes that the members need.
-std::string sample_bindings(std::string_view members);
-
-/// GLSL, after the bindings: GN_CHOOSE(receiver, placement), and `bool read_sample(ivec2 pixel, out GnReceiver)`, which
-/// is false where no sample counts.
-std::string sample_functions(const Part& placement);
-
 /// GLSL that must stand before shadow/receiver/receiver.glsl: what the recipe's bias and the placement's views let it leave out.
 std::string receiver_defines(const Recipe& recipe, const LightViews& views);
 /// The recipe's bias with the reach of its kernels.
-GnBias applied_bias(const Recipe& recipe);
+GnBias applied_bias(const Recipe& recipe, const Light& light, const Box& bounds_ws);
+GnBias applied_bias(const FrameInput& input, const Recipe& recipe);
 
-/// The bytes of u.view, u.light and u.bias; the members follow.
-std::vector<std::byte> sample_constants(const FrameInput& input, const Recipe& recipe);
+/// The G-buffer's positions and normals, the blocks `Views` and `Placement`, and the constants u.view, u.light and u.bias.
+/// Their types stand in shadow/view/view.glsl.
+ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
-/// Declares and sets everything that the head reads, but for `u`.
-void declare_samples(PassBuilder& pass, const ViewSamples& samples, const LightViews& views);
-void set_samples(Recorder& r, const ViewSamples& samples, const LightViews& views);
+/// GLSL, after the inputs' text: GN_CHOOSE(receiver, placement), and `bool read_sample(ivec2 pixel, out GnReceiver)`, which
+/// is false where no sample counts.
+std::string sample_functions(const Device& device, const Part& placement);
+
+/// Adds positions and normals, each read by its own pixel alone, to what a shader reads.
+void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples);
+/// GLSL: GN_POSITION(pixel) and GN_NORMAL(pixel) of them.
+std::string gbuffer_defines(const Device& device);
+
+/// The pixels, x, y, width and height, beyond which no sample of the view counts for the light.
+ivec4 lit_pixels(const FrameInput& input);
 
 }  // namespace gn

@@ -3,6 +3,7 @@
 #include "shadow/recipe/check_recipe.h"
 
 #include "shadow/casters/caster_depth.h"
+#include "shadow/map/derived.h"
 
 #include <algorithm>
 #include <array>
@@ -23,51 +24,65 @@ std::string ids_of(Stage stage, const Fits& fits) {
     return list.empty() ? "none" : list;
 }
 
+std::string joined(std::span<const std::string_view> names) {
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool gives_all(const Part& map, const Part& lookup) {
+    return std::all_of(lookup.needs.begin(), lookup.needs.end(),
+                       [&](std::string_view need) { return map_gives(map, need); });
+}
+
+std::string maps_for(const Part& lookup) {
+    return ids_of(Stage::map, [&](const Part& part) { return gives_all(part, lookup); });
+}
+
+std::string lookups_for(const Part& map) {
+    return ids_of(Stage::lookup, [&](const Part& part) { return gives_all(map, part); });
+}
+
 std::string mismatch_of(const Part& map, const Part& lookup) {
-    if (lookup.needs.empty() || lookup.needs == map.gives) {
+    if (gives_all(map, lookup)) {
         return {};
     }
-    return fmt::format("lookup '{}' reads {} but map '{}' gives {}; maps that give {}: {}; lookups that read {}: {}",
-                       lookup.id, lookup.needs, map.id, map.gives, lookup.needs,
-                       ids_of(Stage::map, [&](const Part& part) { return part.gives == lookup.needs; }), map.gives,
-                       ids_of(Stage::lookup, [&](const Part& part) { return part.needs == map.gives; }));
+    return fmt::format("lookup '{}' reads {} but map '{}' gives {}; maps that give {}: {}; lookups that read '{}': {}",
+                       lookup.id, joined(lookup.needs), map.id, joined(map.gives), joined(lookup.needs),
+                       maps_for(lookup), map.id, lookups_for(map));
 }
 
 /// The sentence why what the recipe keeps of its casters does not fit its parts or the scene, or "".
 std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
-    const std::string& casters = recipe.casters;
-    if (casters == "all" || (recipe.direct == nullptr && recipe.map == nullptr)) {
+    const Casters casters = recipe.casters;
+    if (casters == Casters::all || (recipe.direct == nullptr && recipe.map == nullptr)) {
         return {};
     }
     if (recipe.direct != nullptr) {
         return fmt::format(
-            "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all", casters,
-            recipe.direct->id);
+            "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all",
+            name_of(casters), recipe.direct->id);
     }
-    if (casters != "front" && casters != "back" && !recipe.map->separates_casters) {
+    if (casters != Casters::front && casters != Casters::back && !recipe.map->separates_casters) {
         return fmt::format("casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, front, back",
-                           casters, recipe.map->id,
+                           name_of(casters), recipe.map->id,
                            ids_of(Stage::map, [](const Part& part) { return part.separates_casters; }), recipe.map->id);
     }
-    if (casters == "ids" && !recipe.lookup->compares_ids) {
+    if (casters == Casters::ids && !holds(recipe.lookup->optional, "ids")) {
         return fmt::format("casters = ids: lookup '{}' compares depths only; lookups that compare ids: {}",
                            recipe.lookup->id,
-                           ids_of(Stage::lookup, [](const Part& part) { return part.compares_ids; }));
+                           ids_of(Stage::lookup, [](const Part& part) { return holds(part.optional, "ids"); }));
     }
-    if (casters == "ids" && scene.objects.size() > max_object_ids) {
+    if (casters == Casters::ids && scene.objects.size() > max_object_ids) {
         return fmt::format("casters = ids: the scene has {} objects; at most {} have an id of their own",
                            scene.objects.size(), max_object_ids);
     }
     return {};
 }
 
-constexpr std::array<std::string_view, 4> kinds{"directional", "spot", "point", "rectangle"};
-
 void check_part(const Part& part, const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
     const std::string_view stage = stage_names[static_cast<std::size_t>(part.stage)];
     if (!part.lights.has(light.shape.kind)) {
         refuse("{} '{}' does not serve {} lights such as '{}'; it serves {} lights", stage, part.id,
-               kinds.at(light.shape.kind), light.name, part.lights.names());
+               light_kind_names.at(light.shape.kind), light.name, part.lights.names());
     }
     std::vector<Feature> features = part.features;
     if (part.features_for != nullptr) {
@@ -98,13 +113,11 @@ bool serves_some(const Part& placement, const Scene& scene) {
 void check_complete(const Recipe& recipe) {
     if (recipe.lookup != nullptr && recipe.map == nullptr) {
         fail("recipe {}: lookup '{}' reads a map and none is named; maps that give {}: {}", recipe.name,
-             recipe.lookup->id, recipe.lookup->needs,
-             ids_of(Stage::map, [&](const Part& part) { return part.gives == recipe.lookup->needs; }));
+             recipe.lookup->id, joined(recipe.lookup->needs), maps_for(*recipe.lookup));
     }
     if (recipe.map != nullptr && recipe.lookup == nullptr) {
-        fail("recipe {}: map '{}' is read by no lookup; lookups that read {}: {}", recipe.name, recipe.map->id,
-             recipe.map->gives,
-             ids_of(Stage::lookup, [&](const Part& part) { return part.needs == recipe.map->gives; }));
+        fail("recipe {}: map '{}' is read by no lookup; lookups that read it: {}", recipe.name, recipe.map->id,
+             lookups_for(*recipe.map));
     }
 }
 
@@ -117,11 +130,11 @@ std::string placement_remark(const Recipe& recipe, const Scene& scene) {
         return {};
     }
     std::string others;
-    for (uint kind = 0; kind < kinds.size(); ++kind) {
+    for (uint kind = 0; kind < light_kind_names.size(); ++kind) {
         const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
                                         [&](const Light& l) { return l.shape.kind == kind; });
         if (light != scene.lights.end() && !recipe.placement->lights.has(kind)) {
-            others += fmt::format("{}{} lights by '{}'", others.empty() ? "" : ", ", kinds.at(kind),
+            others += fmt::format("{}{} lights by '{}'", others.empty() ? "" : ", ", light_kind_names.at(kind),
                                   recipe.placement_for(light->shape).id);
         }
     }

@@ -17,17 +17,17 @@ bool LightKinds::has(uint kind) const {
 
 std::string LightKinds::names() const {
     std::string list;
-    const auto add = [&](bool served, std::string_view name) {
-        if (served) {
+    for (uint kind = 0; kind < light_kind_names.size(); ++kind) {
+        if (has(kind)) {
             list += list.empty() ? "" : ", ";
-            list += name;
+            list += light_kind_names.at(kind);
         }
-    };
-    add(directional, "directional");
-    add(spot, "spot");
-    add(point, "point");
-    add(rectangle, "rectangle");
+    }
     return list.empty() ? "no" : list;
+}
+
+bool holds(std::span<const std::string_view> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string identifier(std::string_view id) {

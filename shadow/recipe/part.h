@@ -25,9 +25,10 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 // params_type is set:
 //
 //   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
-//   lookup      float gn_<id>_visibility(GnReceiver, GnProjected, GnBias, sampler2DArray map, Params)
-//   map         float gn_<id>_visibility(sampler2DArray map, sampler2DArray extra, GnProjected, vec2 ddx_ts, vec2 ddy_ts,
-//               Params), for maps that give "filterable"; the lookup `filtered` calls it as GN_MAP_VISIBILITY
+//   lookup      float gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
+//   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
+//               Params), for maps that give "filterable"; the lookup `filtered` calls it as
+//               GN_MAP_VISIBILITY(GnLookup, ddx_ts, ddy_ts)
 
 /// The reach of a kernel: the larger of texels and metres, and besides half of `pixels` sides of the pixel's footprint on the
 /// map. Views are not widened by pixels: no receiver lies beyond the picture, and lookups leave out what lies beyond a view.
@@ -41,10 +42,15 @@ class Part {
     Stage stage = Stage::lookup;
     std::string_view title;               ///< "Percentage-closer filtering"
     std::string_view citation;            ///< key in docs/references.bib
-    std::string_view needs;               ///< lookup: what the map must give ("depth", "moments"); else ""
-    std::string_view gives;               ///< map: what it gives; else ""
+    std::vector<std::string_view> needs;  ///< lookup: what the map must give, or what is derived of that
+    /// lookup: what it reads besides where the map gives it in this recipe ("ids"); else another texture is passed, which its
+    /// GLSL must not read.
+    std::vector<std::string_view> optional;
+    /// map: what it gives: names of textures, and "filterable" where its own GLSL answers for a footprint.
+    std::vector<std::string_view> gives;
+    /// map: which of them its own GLSL reads, in order. One that a recipe leaves out is replaced as `optional` ones are.
+    std::vector<std::string_view> textures;
     bool separates_casters = false;       ///< map: serves casters = midpoint, dual, ids
-    bool compares_ids = false;            ///< lookup: compares objects where casters = ids
     std::vector<std::string_view> reads;  ///< direct: keys of maps that it reads too ("placement", "resolution")
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
@@ -61,8 +67,9 @@ class Part {
     Visibility (*add_lookup)(const FrameInput&, const Recipe&, const LightViews&, const ShadowMap&) = nullptr;
     Visibility (*add_direct)(const FrameInput&, const Recipe&) = nullptr;
     Visibility (*add_visibility)(const FrameInput&, const Recipe&, const Visibility&) = nullptr;
-    /// Lookups and maps: how far beyond a receiver their kernel reads; placements widen their views by it.
-    Guard (*guard)(const Recipe&) = nullptr;
+    /// Lookups and maps: how far beyond a receiver their kernel reads under the light, in a scene of these bounds; placements
+    /// widen their views by it.
+    Guard (*guard)(const Recipe&, const Light&, const Box& bounds_ws) = nullptr;
     /// Lookups and maps: GLSL that must stand before the part's own (generated tables); "" when there is none.
     std::string (*prologue)(const Recipe&) = nullptr;
     /// A combination it cannot do: the sentence why, or "". Asked before anything is drawn.
@@ -72,6 +79,9 @@ class Part {
     /// Tap counts and the like that become specialization constants of the resolve pass.
     SpecConstants (*constants)(const Recipe&) = nullptr;
 };
+
+/// Whether a list of names holds one.
+bool holds(std::span<const std::string_view> names, std::string_view name);
 
 /// Every part, generated from the folders; sorted by stage and id.
 std::span<const Part* const> all_parts();

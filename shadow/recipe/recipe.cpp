@@ -111,10 +111,11 @@ bool set_top_level(Recipe& recipe, std::string_view key, std::string_view value,
     } else if (key == "resolution") {
         recipe.resolution = parse_resolution(value, where);
     } else if (key == "casters") {
-        if (std::find(caster_names.begin(), caster_names.end(), value) == caster_names.end()) {
+        const auto* const named = std::find(caster_names.begin(), caster_names.end(), value);
+        if (named == caster_names.end()) {
             fail("{}: casters = {} is not valid; {}", where, value, suggest(value, caster_names));
         }
-        recipe.casters = value;
+        recipe.casters = static_cast<Casters>(named - caster_names.begin());
     } else {
         return false;
     }

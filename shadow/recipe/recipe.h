@@ -10,6 +10,14 @@
 
 namespace gn {
 
+/// What maps keep of the casters: the nearest of all, front or back faces; the surface between the two nearest (midpoint,
+/// dual); object ids beside depth (ids). See shadow/casters/caster_depth.h.
+enum class Casters { all, front, back, midpoint, dual, ids };
+inline constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
+constexpr std::string_view name_of(Casters casters) {
+    return caster_names[static_cast<std::size_t>(casters)];
+}
+
 struct Recipe {
     std::string name;       ///< "pcf"
     std::string overrides;  ///< "resolution=2048,pcf.taps=25", as given; "" when none
@@ -22,9 +30,7 @@ struct Recipe {
     const Part* visibility = nullptr;  ///< optional
     int resolution = 1024;             ///< texels along a side of the map; per view of multi-view placements
     GnBias bias;
-    /// What maps keep of the casters: the nearest of all, front or back faces; the surface between the two nearest
-    /// (midpoint, dual); object ids beside depth (ids). See shadow/casters/caster_depth.h.
-    std::string casters = "all";
+    Casters casters = Casters::all;
     std::map<std::string, ParamBlock, std::less<>> params;  ///< by part id, for every part there is
 
     /// The parameters of a part in this recipe (defaults where nothing was set).
@@ -39,9 +45,8 @@ struct Recipe {
     [[nodiscard]] const Part& placement_for(const GnLight& light) const;
 };
 
-/// Valid values of `resolution` and `casters`.
+/// Valid values of `resolution`.
 inline constexpr int min_resolution = 16, max_resolution = 16384;
-inline constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
 
 extern const ParamTable bias_params;  ///< rows of GnBias
 

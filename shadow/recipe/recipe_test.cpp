@@ -193,7 +193,7 @@ TEST(Recipes, OverridesAreLaidOverTheFile) {
     EXPECT_EQ(recipe.placement->id, "cube");
     EXPECT_EQ(recipe.bias.normal, 1.5F);
     EXPECT_EQ(recipe.bias.constant, GnBias{}.constant);
-    EXPECT_EQ(recipe.casters, "front");
+    EXPECT_EQ(recipe.casters, Casters::front);
     // The last word on a key counts; "auto" takes a placement back.
     EXPECT_EQ(load_recipe("pcf,resolution=64,resolution=128").resolution, 128);
     EXPECT_EQ(load_recipe("pcf,placement=cube,placement=auto").placement, nullptr);
@@ -292,15 +292,15 @@ TEST(CheckRecipe, StagesThatDoNotFitNameWhatWould) {
     Part map, lookup;
     map.id = "paper-map";
     map.stage = Stage::map;
-    map.gives = "depth";
+    map.gives = {"depth"};
     lookup.id = "paper-lookup";
-    lookup.needs = "moments of paper";
+    lookup.needs = {"moments of paper"};
     Recipe recipe = load_recipe("hard");
     recipe.map = &map;
     recipe.lookup = &lookup;
     expect_has(refusal_of(recipe, GN_LIGHT_SPOT, {}),
                {"'paper-lookup' reads moments of paper", "'paper-map' gives depth",
-                "maps that give moments of paper: none", "lookups that read depth: hard, pcf"});
+                "maps that give moments of paper: none", "lookups that read 'paper-map': hard, pcf"});
 }
 
 TEST(CheckRecipe, MissingFeaturesAreNamed) {

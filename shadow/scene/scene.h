@@ -49,6 +49,9 @@ struct Object {
     bool receives = true;       ///< false: no shadow falls on it, and it is left out of the errors
 };
 
+/// Names of the light kinds, by GnLight::kind.
+inline constexpr std::array<std::string_view, 4> light_kind_names{"directional", "spot", "point", "rectangle"};
+
 struct Light {
     std::string name;
     GnLight shape;

@@ -76,16 +76,17 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     const SceneHandles handles = import_scene(graph, scene);
     built.samples = add_view_samples(graph, scene, handles, camera, options.width, options.height);
     graph.group("shadow");
-    const FrameInput input{graph.device(), graph,   *scene.scene,  handles,
-                           built.samples,  nullptr, options.light, options.history};
+    const FrameInput input{graph.device(), graph,          *scene.scene,
+                           handles,        built.samples,  &scene.scene->lights.at(options.light),
+                           options.light,  options.history};
 
     // The stages before the lookup, as in a frame.
     check_recipe(recipe, input.scene, input.light(), input.device);
     built.views = place_views(input, recipe);
     if (asked(names, "map")) {
         built.map = recipe.map->add_map(input, recipe, built.views);
-        check_map_memory(input, recipe, built.map.texture);
-        built.map_tiles = add_layer_tiles(input, built.map.texture);
+        check_map_memory(input, recipe, built.map.texture());
+        built.map_tiles = add_layer_tiles(input, built.map.texture());
         graph.keep(built.map_tiles.image);
     }
     if (asked(names, "light-view")) {
@@ -129,7 +130,7 @@ SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, 
     // A bias of nothing follows the recipe's own.
     const std::array<std::byte, sizeof(GnBias)> no_bias{};
     const SampleImages images = add_sample_pass(
-        input, recipe, views, {"show", "shown views", "shown sizes", "GnBias no_bias;", output_text}, no_bias);
+        input, recipe, views, {"show", "shown views", "shown sizes", "GnBias", "no_bias", output_text}, no_bias);
     return {images.first, images.second};
 }
 
@@ -161,7 +162,7 @@ std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& ca
             shown.push_back(color_bias(read_image(graph, built.figures.sizes)));
         } else if (name == "map") {
             shown.push_back(color_map(read_image(graph, built.map_tiles.image), built.map_tiles,
-                                      graph.desc(built.map.texture), recipe.map->gives == "depth"));
+                                      graph.desc(built.map.texture()), holds(recipe.map->gives, "depth")));
         } else {
             shown.push_back(color_light(read_image(graph, built.light_tiles.image), built.light_tiles));
         }

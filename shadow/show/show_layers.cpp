@@ -41,7 +41,6 @@ struct TilesPush {
 // The point that a fragment at xy sees at a linear depth: in the world, or under a paraboloid in the light's frame.
 constexpr const char* light_includes = R"(
 #include "shadow/receiver/receiver.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(location = 0) out vec4 out_light;
 vec3 point_at(GnLightView view, vec2 xy, float depth) {
     vec2 p_ndc = ((xy / view.resolution - view.rect_ts.xy) / view.rect_ts.zw) * 2.0 - 1.0;

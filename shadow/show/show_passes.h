@@ -22,7 +22,8 @@ struct SamplePass {
     const char* name;
     const char* first_name;
     const char* second_name;
-    const char* member;  ///< "float pixels;"
+    const char* member_type;  ///< "float"
+    const char* member;       ///< "pixels"
     const char* text;
 };
 SampleImages add_sample_pass(const FrameInput& input, const Recipe& recipe, const LightViews& views,

@@ -43,9 +43,9 @@ void main() {
 
 SampleImages add_regions(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     // A filtered fetch takes a mip level whose texels are up to twice as wide as the pixel's footprint.
-    const float pixels = recipe.lookup->needs == "filterable" ? 2.0F : 0.0F;
+    const float pixels = holds(recipe.lookup->needs, "filterable") ? 2.0F : 0.0F;
     return add_sample_pass(input, recipe, views,
-                           {"kernel regions", "kernel region a", "kernel region b", "float pixels;", main_text},
+                           {"kernel regions", "kernel region a", "kernel region b", "float", "pixels", main_text},
                            std::as_bytes(std::span(&pixels, 1)));
 }
 
@@ -66,7 +66,9 @@ std::vector<KernelRegion> kernel_regions(Device& device, SceneGpu& scene, const 
     const SceneHandles handles = import_scene(graph, scene);
     const ViewSamples samples = add_view_samples(graph, scene, handles, camera, options.width, options.height);
     graph.group("shadow");
-    const FrameInput input{device, graph, *scene.scene, handles, samples, nullptr, options.light, options.history};
+    const FrameInput input{device,        graph,          *scene.scene,
+                           handles,       samples,        &scene.scene->lights.at(options.light),
+                           options.light, options.history};
     check_recipe(recipe, input.scene, input.light(), input.device);
     const SampleImages axes = add_regions(input, recipe, place_views(input, recipe));
     graph.keep(axes.first);

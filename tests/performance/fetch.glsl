@@ -6,13 +6,14 @@
 #include "shadow/lookup/pcf/pcf.glsl"
 
 // The texel that `hard` compares with.
-float gn_fetch_one_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
+float gn_fetch_one_visibility(GnLookup at, sampler2DArray map) {
+    GnProjected projected = at.projected;
     return texelFetch(map, ivec3(ivec2(floor(projected.uv_ts / projected.texel_ts)), projected.layer), 0).r;
 }
 
 // The texels that a grid kernel of `pcf` compares with: one gather for four.
-float gn_fetch_gathers_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
-                                  GnPcfParams params) {
+float gn_fetch_gathers_visibility(GnLookup at, sampler2DArray map, GnPcfParams params) {
+    GnProjected projected = at.projected;
     vec2 t = projected.uv_ts / projected.texel_ts;
     ivec2 first = ivec2(gn_pcf_first(GN_PCF_KERNEL, GN_PCF_SIZE, t.x), gn_pcf_first(GN_PCF_KERNEL, GN_PCF_SIZE, t.y));
     vec4 sum = vec4(0.0);
@@ -36,10 +37,10 @@ float gn_fetch_four(GnProjected projected, sampler2DArray map, vec2 radius_ts, v
     return sum;
 }
 
-float gn_fetch_taps_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
-                               GnPcfParams params) {
+float gn_fetch_taps_visibility(GnLookup at, sampler2DArray map, GnPcfParams params) {
+    GnProjected projected = at.projected;
     vec2 radius_ts = vec2(params.radius * projected.texel_ts);
-    float angle = GN_PCF_KERNEL == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
+    float angle = GN_PCF_KERNEL == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(at.receiver.p_ss);
     vec2 turn = vec2(cos(angle), sin(angle));
     float sum = 0.0;
 #ifdef GN_PCF_PROBES

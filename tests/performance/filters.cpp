@@ -10,7 +10,7 @@ namespace {
 void build_copy(Bench& bench, FrameGraph& graph) {
     static constexpr const char* text = R"(
 layout(location = 0) out vec4 out_texel;
-void main() { out_texel = texelFetch(source, ivec3(ivec2(gl_FragCoord.xy), push_layer), 0); }
+void main() { out_texel = GN_SOURCE(ivec3(ivec2(gl_FragCoord.xy), push_layer)); }
 )";
     SceneGpu& gpu = bench.scene("contact");
     const SceneHandles handles = import_scene(graph, gpu);

@@ -115,13 +115,13 @@ void build_forward(Bench& bench, const Peer& peer, Kernel kernel, FrameGraph& gr
     const Camera& camera = gpu.scene->cameras[0];
     const SceneHandles handles = import_scene(graph, gpu);
     const ViewSamples samples{.width = width, .height = height, .camera = camera};
-    const FrameInput input{
-        bench.device(), graph, *gpu.scene, handles, samples, nullptr, static_cast<std::size_t>(peer.light)};
+    const FrameInput input{bench.device(), graph,   *gpu.scene,
+                           handles,        samples, &gpu.scene->lights.at(static_cast<std::size_t>(peer.light))};
     const Recipe recipe = load_recipe(peer.recipe);
     const LightViews views = place_views(input, recipe);
     TextureHandle map;
     if (kernel != Kernel::none) {
-        map = recipe.map->add_map(input, recipe, views).texture;
+        map = recipe.map->add_map(input, recipe, views).texture();
     }
     const TextureHandle color =
         graph.create({.name = "color", .format = VK_FORMAT_R8G8B8A8_UNORM, .width = width, .height = height});

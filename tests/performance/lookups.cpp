@@ -10,7 +10,7 @@ Part fetching(std::string_view id, const Part* pcf = nullptr) {
     Part part;
     part.id = id;
     part.stage = Stage::lookup;
-    part.needs = "depth";
+    part.needs = {"depth"};
     part.glsl = "tests/performance/fetch.glsl";
     if (pcf != nullptr) {
         part.params_type = pcf->params_type;

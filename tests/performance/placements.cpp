@@ -24,7 +24,7 @@ void main() { gl_Position = push.cs_from_ws * vec4(in_position_ws, 1.0); }
     SceneGpu& gpu = bench.scene("courtyard");
     const SceneHandles handles = import_scene(graph, gpu);
     const ViewSamples samples = {.width = width, .height = height, .camera = gpu.scene->cameras[0]};
-    const FrameInput input{bench.device(), graph, *gpu.scene, handles, samples};
+    const FrameInput input{bench.device(), graph, *gpu.scene, handles, samples, gpu.scene->lights.data()};
     const LightViews views = place_views(input, recipe);
     const TextureHandle target = graph.create(
         {.name = "depth", .format = VK_FORMAT_D32_SFLOAT, .width = views.resolution, .height = views.resolution});

@@ -9,7 +9,7 @@ namespace gn {
 namespace {
 
 constexpr const char* samples_text = R"(
-layout(binding = 8, scalar) writeonly buffer Samples { GnForwardSample samples[]; };
+layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
@@ -168,25 +168,18 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
         input.graph.create(BufferDesc{.name = "forward samples", .bytes = pixels(samples) * sample_bytes});
 
     // Compose the shader as lookups do: the placement chooses, the bias moves.
-    std::string text =
-        receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" + include_line(views.part->glsl);
-    text += "#include \"shadow/direct/forward/forward.glsl\"\n";
-    text += sample_bindings("GnForwardParams params;") + sample_functions(*views.part) + samples_text;
-    std::vector<std::byte> constants = sample_constants(input, recipe);
-    const auto more = std::as_bytes(std::span(&params, 1));
-    constants.insert(constants.end(), more.begin(), more.end());
+    ShaderInputs inputs = sample_inputs(input, recipe, views);
+    inputs.buffer("writeonly buffer", "Samples", "GnForwardSample samples[];", buffer);
+    inputs.constant("GnForwardParams", "params", params);
+    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
+                             include_line(views.part->glsl) + "#include \"shadow/direct/forward/forward.glsl\"\n" +
+                             inputs.text() + sample_functions(input.device, *views.part) + samples_text;
     input.graph.add_pass(
-        "forward: samples",
-        [&](PassBuilder& pass) {
-            declare_samples(pass, samples, views);
-            pass.storage_write(buffer);
-        },
-        [=](Recorder& r) {
+        "forward: samples", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, text, width = samples.width, height = samples.height](Recorder& r) {
             r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-samples.comp", text}});
-            set_samples(r, samples, views);
-            r.set_bytes("u", constants);
-            r.set("Samples", buffer);
-            r.dispatch_pixels(samples.width, samples.height);
+            inputs.set(r);
+            r.dispatch_pixels(width, height);
         });
     return buffer;
 }

@@ -8,6 +8,8 @@
 
 #include "shadow/direct/volumes/volumes.h"
 
+// A host whose device has doubles may ask for them:
+//   #define GN_VOLUMES_DOUBLE
 #ifdef __cplusplus
 #define GN_VOLUMES_VEC3 glm::dvec3
 #define GN_VOLUMES_REAL double

@@ -10,7 +10,7 @@
 namespace gn {
 namespace {
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     const auto params = recipe.of<GnFilteredParams>("filtered");
     switch (params.footprint) {
         case GN_FILTERED_RADIUS: return {.texels = params.radius + 2};
@@ -31,7 +31,7 @@ const Part& lookup_filtered() {
         p.stage = Stage::lookup;
         p.title = "One filtered fetch of a prefiltered map";
         p.citation = "DL06";
-        p.needs = "filterable";
+        p.needs = {"filterable"};
         p.params = param_table<GnFilteredParams>({
             GN_CHOICE(GnFilteredParams, footprint,
                       "What is averaged: the pixel's own footprint, or a kernel of a radius in texels or in metres.",

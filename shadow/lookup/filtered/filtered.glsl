@@ -38,10 +38,11 @@ GN_FN GnFootprint gn_filtered_footprint(GnReceiver receiver, GnProjected project
 }  // namespace gn::glsl
 #elif defined(GN_MAP_VISIBILITY)
 
-float gn_filtered_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
-                             GnFilteredParams params) {
-    GnFootprint footprint = gn_filtered_footprint(receiver, projected, params);
-    return GN_MAP_VISIBILITY(projected, footprint.ddx_ts, footprint.ddy_ts);
+// The map's own answer, which the host calls by this name:
+//   #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
+float gn_filtered_visibility(GnLookup at, GnFilteredParams params) {
+    GnFootprint footprint = gn_filtered_footprint(at.receiver, at.projected, params);
+    return GN_MAP_VISIBILITY(at, footprint.ddx_ts, footprint.ddy_ts);
 }
 
 #endif

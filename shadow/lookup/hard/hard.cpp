@@ -13,8 +13,8 @@ const Part& lookup_hard() {
         p.stage = Stage::lookup;
         p.title = "One comparison";
         p.citation = "Wil78";
-        p.needs = "depth";
-        p.compares_ids = true;
+        p.needs = {"depth"};
+        p.optional = {"ids"};
         p.glsl = "shadow/lookup/hard/hard.glsl";
         return p;
     }();

@@ -7,15 +7,18 @@
 #include "shadow/receiver/receiver.glsl"
 
 #ifndef __cplusplus
-float gn_hard_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
+// Where a host draws ids, `ids` holds them; else nothing reads `ids`:
+//   #define GN_CASTER_IDS
+float gn_hard_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids) {
+    GnProjected projected = at.projected;
     // Compare where the texel was sampled: at its centre.
     ivec2 texel = ivec2(floor(projected.uv_ts / projected.texel_ts));
     vec2 centre_ts = (vec2(texel) + 0.5) * projected.texel_ts;
-    float occluder = texelFetch(map, ivec3(texel, projected.layer), 0).r;
-    bool lit = gn_depth_at(projected, centre_ts, bias) <= occluder;
+    float occluder = texelFetch(depth, ivec3(texel, projected.layer), 0).r;
+    bool lit = gn_depth_at(projected, centre_ts, at.bias) <= occluder;
 #ifdef GN_CASTER_IDS
     // An object never shadows itself. [HN85]
-    lit = lit || texelFetch(shadow_map_extra, ivec3(texel, projected.layer), 0).r == float(receiver.object);
+    lit = lit || texelFetch(ids, ivec3(texel, projected.layer), 0).r == float(at.receiver.object);
 #endif
     return lit ? 1.0 : 0.0;
 }

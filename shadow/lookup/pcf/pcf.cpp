@@ -16,7 +16,7 @@ bool is_grid(const GnPcfParams& params) {
     return params.kernel <= GN_PCF_GAUSSIAN;
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     const auto params = recipe.of<GnPcfParams>("pcf");
     Guard guard;
     if (is_grid(params)) {
@@ -97,8 +97,8 @@ const Part& lookup_pcf() {
         p.stage = Stage::lookup;
         p.title = "Percentage-closer filtering";
         p.citation = "RSC87";
-        p.needs = "depth";
-        p.compares_ids = true;
+        p.needs = {"depth"};
+        p.optional = {"ids"};
         p.params = rows();
         p.params_type = "GnPcfParams";
         p.glsl = "shadow/lookup/pcf/pcf.glsl";

@@ -126,7 +126,15 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 
 // The host may list the taps of a set on the unit disc, made beforehand, four at a time: GN_PCF_PROBES(take) and
 // GN_PCF_OTHERS(take) expand to take(x, y, counted) for the first eight and for the rest. Without them the spiral serves.
-// The host may fix the loops' counts at pipeline creation.
+//   #define GN_PCF_PROBES(take) take(vec4(0.1), vec4(0.2), vec4(1.0))
+//   with #define GN_PCF_OTHERS(take) take(vec4(0.3), vec4(0.4), vec4(1.0))
+// The host may fix the kernel and the loops' counts when it compiles.
+//   #define GN_PCF_KERNEL GN_PCF_3X3
+//   #define GN_PCF_SIZE 3
+//   #define GN_PCF_FOOTPRINT 4
+//   #define GN_PCF_TAPS 16
+//   #define GN_PCF_EARLY_OUT true
+//   #define GN_PCF_OVER_PIXEL false
 #ifndef GN_PCF_FOOTPRINT
 #define GN_PCF_FOOTPRINT gn_pcf_footprint(params.kernel, params.size)
 #endif
@@ -147,16 +155,17 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 #define GN_PCF_OVER_PIXEL (params.footprint == GN_PCF_OF_PIXEL)
 #endif
 
-// Where a host draws ids, GN_CASTER_IDS is defined and shadow_map_extra holds them: an object never shadows itself. [HN85]
-vec4 gn_pcf_gather(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, vec2 corner_ts) {
-    float half_ts = 0.5 * projected.texel_ts;
-    vec2 d_ts = corner_ts - projected.uv_ts;
-    vec4 occluder = textureGather(map, vec3(corner_ts, projected.layer));
-    vec4 lit = vec4(gn_lit_beside(projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
-                                  d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, bias));
+// Where a host draws ids, `ids` holds them, and an object never shadows itself [HN85]; else nothing reads `ids`:
+//   #define GN_CASTER_IDS
+vec4 gn_pcf_gather(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec2 corner_ts) {
+    float half_ts = 0.5 * at.projected.texel_ts;
+    vec2 d_ts = corner_ts - at.projected.uv_ts;
+    vec4 occluder = textureGather(depth, vec3(corner_ts, at.projected.layer));
+    vec4 lit = vec4(gn_lit_beside(at.projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
+                                  d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, at.bias));
 #ifdef GN_CASTER_IDS
-    vec4 ids = textureGather(shadow_map_extra, vec3(corner_ts, projected.layer));
-    lit = max(lit, vec4(equal(ids, vec4(float(receiver.object)))));
+    vec4 casters = textureGather(ids, vec3(corner_ts, at.projected.layer));
+    lit = max(lit, vec4(equal(casters, vec4(float(at.receiver.object)))));
 #endif
     return lit;
 }
@@ -172,10 +181,10 @@ float gn_pcf_weighed(vec4 lit, vec2 wx, vec2 wy) {
 }
 
 // Gather the footprint in blocks of 2 x 2 texels and weigh each comparison by its row and column.
-float gn_pcf_grid(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
-    vec2 t = projected.uv_ts / projected.texel_ts;
+float gn_pcf_grid(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
+    vec2 t = at.projected.uv_ts / at.projected.texel_ts;
     ivec2 first = ivec2(gn_pcf_first(params.kernel, params.size, t.x), gn_pcf_first(params.kernel, params.size, t.y));
-    vec2 first_ts = vec2(first + 1) * projected.texel_ts;
+    vec2 first_ts = vec2(first + 1) * at.projected.texel_ts;
     float sum = 0.0;
     float total = 0.0;
     for (int y = 0; y < GN_PCF_FOOTPRINT; y += 2) {
@@ -183,8 +192,8 @@ float gn_pcf_grid(GnReceiver receiver, GnProjected projected, GnBias bias, sampl
         for (int x = 0; x < GN_PCF_FOOTPRINT; x += 2) {
             vec2 wx = vec2(gn_pcf_axis_weight(params, t.x, x), gn_pcf_axis_weight(params, t.x, x + 1));
             // Components of a gather: x (0,1), y (1,1), z (1,0), w (0,0).
-            vec2 corner_ts = first_ts + vec2(x, y) * projected.texel_ts;
-            vec4 lit = gn_pcf_gather(receiver, projected, bias, map, corner_ts);
+            vec2 corner_ts = first_ts + vec2(x, y) * at.projected.texel_ts;
+            vec4 lit = gn_pcf_gather(at, depth, ids, corner_ts);
             sum += gn_pcf_weighed(lit, wx, wy);
             total += (wx.x + wx.y) * (wy.x + wy.y);
         }
@@ -198,11 +207,10 @@ vec2 gn_pcf_step(GnProjected projected, vec3 step_ws) {
 }
 
 // The same over all texels of the rectangle around what the kernel and the pixel cover.
-float gn_pcf_grid_over_pixel(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
-                             GnPcfParams params) {
-    vec2 t = projected.uv_ts / projected.texel_ts;
-    vec2 pixel = (abs(gn_pcf_step(projected, receiver.ddx_ws)) + abs(gn_pcf_step(projected, receiver.ddy_ws))) / projected.texel_ts;
-    vec4 border = round(projected.bounds_ts / projected.texel_ts);
+float gn_pcf_grid_over_pixel(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
+    vec2 t = at.projected.uv_ts / at.projected.texel_ts;
+    vec2 pixel = (abs(gn_pcf_step(at.projected, at.receiver.ddx_ws)) + abs(gn_pcf_step(at.projected, at.receiver.ddy_ws))) / at.projected.texel_ts;
+    vec4 border = round(at.projected.bounds_ts / at.projected.texel_ts);
     GnPcfSpan across = gn_pcf_span(params.kernel, params.size, pixel.x, t.x, border.x, border.z);
     GnPcfSpan down = gn_pcf_span(params.kernel, params.size, pixel.y, t.y, border.y, border.w);
     float sum = 0.0;
@@ -211,7 +219,7 @@ float gn_pcf_grid_over_pixel(GnReceiver receiver, GnProjected projected, GnBias 
         vec2 wy = vec2(gn_pcf_span_weight(params.kernel, down, y), gn_pcf_span_weight(params.kernel, down, y + 1.0));
         for (float x = floor(across.low); x < across.high; x += 2.0) {
             vec2 wx = vec2(gn_pcf_span_weight(params.kernel, across, x), gn_pcf_span_weight(params.kernel, across, x + 1.0));
-            vec4 lit = gn_pcf_gather(receiver, projected, bias, map, (vec2(x, y) + 1.0) * projected.texel_ts);
+            vec4 lit = gn_pcf_gather(at, depth, ids, (vec2(x, y) + 1.0) * at.projected.texel_ts);
             sum += gn_pcf_weighed(lit, wx, wy);
             total += (wx.x + wx.y) * (wy.x + wy.y);
         }
@@ -220,31 +228,31 @@ float gn_pcf_grid_over_pixel(GnReceiver receiver, GnProjected projected, GnBias 
 }
 
 // Four taps of a disc kernel: the texels that they fall into, compared at the texels' centres.
-vec4 gn_pcf_taps(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, vec4 u_ts, vec4 v_ts) {
-    vec2 last_ts = projected.bounds_ts.zw - 0.5 * projected.texel_ts;
-    vec4 u = floor(clamp(u_ts, projected.bounds_ts.x, last_ts.x) / projected.texel_ts);
-    vec4 v = floor(clamp(v_ts, projected.bounds_ts.y, last_ts.y) / projected.texel_ts);
+vec4 gn_pcf_taps(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec4 u_ts, vec4 v_ts) {
+    vec2 last_ts = at.projected.bounds_ts.zw - 0.5 * at.projected.texel_ts;
+    vec4 u = floor(clamp(u_ts, at.projected.bounds_ts.x, last_ts.x) / at.projected.texel_ts);
+    vec4 v = floor(clamp(v_ts, at.projected.bounds_ts.y, last_ts.y) / at.projected.texel_ts);
     vec4 occluder;
     vec4 own = vec4(0.0);
     for (int k = 0; k < 4; ++k) {
-        occluder[k] = texelFetch(map, ivec3(u[k], v[k], projected.layer), 0).r;
+        occluder[k] = texelFetch(depth, ivec3(u[k], v[k], at.projected.layer), 0).r;
 #ifdef GN_CASTER_IDS
-        own[k] = float(texelFetch(shadow_map_extra, ivec3(u[k], v[k], projected.layer), 0).r == float(receiver.object));
+        own[k] = float(texelFetch(ids, ivec3(u[k], v[k], at.projected.layer), 0).r == float(at.receiver.object));
 #endif
     }
-    vec4 lit = vec4(gn_lit_at(projected, (u + 0.5) * projected.texel_ts, (v + 0.5) * projected.texel_ts, occluder, bias));
+    vec4 lit = vec4(gn_lit_at(at.projected, (u + 0.5) * at.projected.texel_ts, (v + 0.5) * at.projected.texel_ts, occluder, at.bias));
     return max(lit, own);
 }
 
 // How many of four taps are lit, the first of them tap `first`: their points on the unit disc, turned and scaled; `counted`
 // is 1 or 0 each. Over the pixel each tap looks from another place in it.
-float gn_pcf_four(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params,
+float gn_pcf_four(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params,
                   vec2 radius_ts, vec2 turn, int first, vec4 x, vec4 y, vec4 counted) {
-    vec4 u_ts = projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
-    vec4 v_ts = projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
+    vec4 u_ts = at.projected.uv_ts.x + radius_ts.x * (turn.x * x - turn.y * y);
+    vec4 v_ts = at.projected.uv_ts.y + radius_ts.y * (turn.y * x + turn.x * y);
     if (GN_PCF_OVER_PIXEL) {
-        vec2 right_ts = gn_pcf_step(projected, receiver.ddx_ws);
-        vec2 below_ts = gn_pcf_step(projected, receiver.ddy_ws);
+        vec2 right_ts = gn_pcf_step(at.projected, at.receiver.ddx_ws);
+        vec2 below_ts = gn_pcf_step(at.projected, at.receiver.ddy_ws);
         for (int k = 0; k < 4; ++k) {
             vec2 p_ss = gn_pcf_subpixel(first + k);
             vec2 d_ts = p_ss.x * right_ts + p_ss.y * below_ts;
@@ -252,11 +260,11 @@ float gn_pcf_four(GnReceiver receiver, GnProjected projected, GnBias bias, sampl
             v_ts[k] += d_ts.y;
         }
     }
-    return dot(counted, gn_pcf_taps(receiver, projected, bias, map, u_ts, v_ts));
+    return dot(counted, gn_pcf_taps(at, depth, ids, u_ts, v_ts));
 }
 
 #ifndef GN_PCF_PROBES
-float gn_pcf_spiral(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params,
+float gn_pcf_spiral(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params,
                     vec2 radius_ts, vec2 turn, int taps, int first, int end) {
     float sum = 0.0;
     for (int i = first; i < end; i += 4) {
@@ -268,29 +276,29 @@ float gn_pcf_spiral(GnReceiver receiver, GnProjected projected, GnBias bias, sam
             y[k] = p.y;
         }
         vec4 counted = vec4(lessThan(i + ivec4(0, 1, 2, 3), ivec4(taps)));
-        sum += gn_pcf_four(receiver, projected, bias, map, params, radius_ts, turn, i, x, y, counted);
+        sum += gn_pcf_four(at, depth, ids, params, radius_ts, turn, i, x, y, counted);
     }
     return sum;
 }
 #endif
 
-float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map, GnPcfParams params) {
-    vec2 radius_ts = vec2(params.radius * projected.texel_ts);
+float gn_pcf_discs(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
+    vec2 radius_ts = vec2(params.radius * at.projected.texel_ts);
     if (params.radius_world > 0.0) {
-        radius_ts = gn_texels(projected, params.radius_world) * projected.texel_ts;
+        radius_ts = gn_texels(at.projected, params.radius_world) * at.projected.texel_ts;
     }
-    float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(receiver.p_ss);
+    float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(at.receiver.p_ss);
     vec2 turn = vec2(cos(angle), sin(angle));
     int probes = min(GN_PCF_TAPS, 8);
     float sum = 0.0;
 #ifdef GN_PCF_PROBES
     int tap = 0;
 #define GN_PCF_TAKE(x, y, counted)                                                                   \
-    sum += gn_pcf_four(receiver, projected, bias, map, params, radius_ts, turn, tap, x, y, counted); \
+    sum += gn_pcf_four(at, depth, ids, params, radius_ts, turn, tap, x, y, counted); \
     tap += 4;
     GN_PCF_PROBES(GN_PCF_TAKE)
 #else
-    sum = gn_pcf_spiral(receiver, projected, bias, map, params, radius_ts, turn, GN_PCF_TAPS, 0, probes);
+    sum = gn_pcf_spiral(at, depth, ids, params, radius_ts, turn, GN_PCF_TAPS, 0, probes);
 #endif
 
     // Two steps: where the first taps agree, the rest would. (Uralsky's early out, [EASW09] 4.2)
@@ -301,20 +309,19 @@ float gn_pcf_discs(GnReceiver receiver, GnProjected projected, GnBias bias, samp
     GN_PCF_OTHERS(GN_PCF_TAKE)
 #undef GN_PCF_TAKE
 #else
-    sum += gn_pcf_spiral(receiver, projected, bias, map, params, radius_ts, turn, GN_PCF_TAPS, probes, GN_PCF_TAPS);
+    sum += gn_pcf_spiral(at, depth, ids, params, radius_ts, turn, GN_PCF_TAPS, probes, GN_PCF_TAPS);
 #endif
     return sum / float(GN_PCF_TAPS);
 }
 
-float gn_pcf_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map,
-                        GnPcfParams params) {
+float gn_pcf_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
     params.kernel = GN_PCF_KERNEL;
     params.size = GN_PCF_SIZE;
     if (params.kernel > GN_PCF_GAUSSIAN) {
-        return gn_pcf_discs(receiver, projected, bias, map, params);
+        return gn_pcf_discs(at, depth, ids, params);
     }
-    return GN_PCF_OVER_PIXEL ? gn_pcf_grid_over_pixel(receiver, projected, bias, map, params)
-                             : gn_pcf_grid(receiver, projected, bias, map, params);
+    return GN_PCF_OVER_PIXEL ? gn_pcf_grid_over_pixel(at, depth, ids, params)
+                             : gn_pcf_grid(at, depth, ids, params);
 }
 #endif
 

@@ -9,7 +9,7 @@
 namespace gn {
 namespace {
 
-Guard guard(const Recipe&) {
+Guard guard(const Recipe&, const Light&, const Box&) {
     return {.texels = 2};
 }
 
@@ -24,7 +24,7 @@ const Part& lookup_silhouette() {
         p.stage = Stage::lookup;
         p.title = "One comparison on the right side of the silhouette";
         p.citation = "SCH03";
-        p.needs = "silhouettes";
+        p.needs = {"silhouettes"};
         p.glsl = "shadow/lookup/silhouette/silhouette.glsl";
         p.guard = guard;
         return p;

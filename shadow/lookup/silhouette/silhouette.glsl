@@ -48,7 +48,8 @@ vec2 gn_silhouette_fetch(sampler2DArray map, ivec2 cell, ivec2 step, int layer, 
     return gn_silhouette_unpack(packed) + vec2(step);
 }
 
-float gn_silhouette_visibility(GnReceiver receiver, GnProjected projected, GnBias bias, sampler2DArray map) {
+float gn_silhouette_visibility(GnLookup at, sampler2DArray map) {
+    GnProjected projected = at.projected;
     // Find the receiver's cell, and its quadrant.
     vec2 p_cells = projected.uv_ts / projected.texel_ts - 0.5;
     ivec2 cell = ivec2(floor(p_cells));
@@ -64,7 +65,7 @@ float gn_silhouette_visibility(GnReceiver receiver, GnProjected projected, GnBia
     ivec2 texel = clamp(cell + corner, bounds.xy, bounds.zw);
     vec2 corner_ts = (vec2(texel) + 0.5) * projected.texel_ts;
     float occluder = texelFetch(map, ivec3(texel, layer), 0).r;
-    return gn_depth_at(projected, corner_ts, bias) <= occluder ? 1.0 : 0.0;
+    return gn_depth_at(projected, corner_ts, at.bias) <= occluder ? 1.0 : 0.0;
 }
 
 #endif

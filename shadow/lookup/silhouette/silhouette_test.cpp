@@ -86,7 +86,9 @@ void main() {
     p.cone = p.cone_share = 0.0;
     GnBias bias;
     bias.receiver_plane = 0;
-    imageStore(result, ivec2(0), vec4(gn_silhouette_visibility(receiver, p, bias, map)));
+    GnLight light;
+    GnLightView view;
+    imageStore(result, ivec2(0), vec4(gn_silhouette_visibility(GnLookup(receiver, p, bias, light, view), map)));
 }
 )";
     FrameGraph graph(test::device());

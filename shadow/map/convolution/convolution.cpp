@@ -21,17 +21,16 @@ TextureHandle add_basis(const FrameInput& input, TextureHandle depth, const GnCo
     const TextureHandle basis = input.graph.create(desc);
     add_layer_passes(input, depth, basis,
                      {.name = "basis",
+                      .includes = "#include \"shadow/map/convolution/convolution.glsl\"\n",
                       .text = R"(
-#include "shadow/map/convolution/convolution.glsl"
-layout(binding = 0, scalar) uniform MapParams { GnConvolutionParams map_params; };
 layout(location = 0) out vec4 out_basis;
 void main() {
-    int groups = gn_convolution_groups(map_params.terms);
-    float depth = texelFetch(source, ivec3(ivec2(gl_FragCoord.xy), push_layer / groups), 0).r;
-    out_basis = gn_convolution_encode(depth, push_layer % groups, map_params.span);
+    int groups = gn_convolution_groups(u.params.terms);
+    float depth = GN_SOURCE(ivec3(ivec2(gl_FragCoord.xy), push_layer / groups)).r;
+    out_basis = gn_convolution_encode(depth, push_layer % groups, u.params.span);
 }
 )",
-                      .bind_values = [params](Recorder& r) { r.set_value("MapParams", params); }});
+                      .inputs = ShaderInputs().constant("GnConvolutionParams", "params", params)});
     return basis;
 }
 
@@ -48,10 +47,10 @@ ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const L
     const TextureHandle basis = add_basis(input, depth, params);
 
     // Blur and mipmap.
-    return filtered_map(input, basis, params.prefilter);
+    return filtered_map(input, "waves", basis, params.prefilter);
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnConvolutionParams>("convolution").prefilter);
 }
 
@@ -84,7 +83,8 @@ const Part& map_convolution() {
         p.stage = Stage::map;
         p.title = "Convolution shadow maps";
         p.citation = "AMB+07";
-        p.gives = "filterable";
+        p.gives = {"filterable", "waves"};
+        p.textures = {"waves"};
         p.params = rows();
         p.params_type = "GnConvolutionParams";
         p.glsl = "shadow/map/convolution/convolution.glsl";

@@ -58,14 +58,14 @@ GN_FN float gn_convolution_step(float sum, float scale) { return clamp(scale * (
 }  // namespace gn::glsl
 #else
 
-float gn_convolution_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts,
-                                vec2 ddy_ts, GnConvolutionParams params) {
+float gn_convolution_visibility(GnLookup at, sampler2DArray waves, vec2 ddx_ts, vec2 ddy_ts, GnConvolutionParams params) {
+    GnProjected projected = at.projected;
     int groups = gn_convolution_groups(params.terms);
     float receiver = gn_convolution_receiver(projected.depth, params);
     float sum = 0.0;
     for (int group = 0; group < groups; ++group) {
         vec3 at = vec3(projected.uv_ts, projected.layer * groups + group);
-        sum += gn_convolution_group(textureGrad(map, at, ddx_ts, ddy_ts), receiver, group, params);
+        sum += gn_convolution_group(textureGrad(waves, at, ddx_ts, ddy_ts), receiver, group, params);
     }
     GN_EXPECT(gn_finite(sum));
     return gn_convolution_step(sum, params.scale);

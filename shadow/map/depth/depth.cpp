@@ -15,7 +15,7 @@ const Part& map_depth() {
         p.stage = Stage::map;
         p.title = "Linear depth of the nearest caster";
         p.citation = "Wil78";
-        p.gives = "depth";
+        p.gives = {"depth", "ids"};
         p.separates_casters = true;
         p.add_map = add_caster_depth;
         return p;

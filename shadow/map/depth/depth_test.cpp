@@ -34,15 +34,15 @@ TEST(Depth, IsLinearInDistanceUnderAPerspectiveProjection) {
         FrameGraph graph(test::device());
         const SceneHandles handles = import_scene(graph, gpu);
         const ViewSamples samples{.width = 64, .height = 64, .camera = scene.cameras[0]};
-        const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+        const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
         Recipe recipe = load_recipe("hard,placement=single,resolution=64");
         LightViews views = recipe.placement->place(input, recipe);
         const ShadowMap map = recipe.map->add_map(input, recipe, views);
-        graph.keep(map.texture);
+        graph.keep(map.texture());
         graph.execute(false);
 
         // Every texel of the level square has the same distance along the axis, whatever its angle.
-        const std::vector<std::byte> bytes = graph.download(map.texture);
+        const std::vector<std::byte> bytes = graph.download(map.texture());
         std::vector<float> depth(64 * 64);
         ASSERT_EQ(bytes.size(), depth.size() * sizeof(float));
         std::memcpy(depth.data(), bytes.data(), bytes.size());

@@ -58,24 +58,23 @@ ShadowMap add_esm(const FrameInput& input, const Recipe& recipe, const LightView
     moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/esm/esm.glsl"
-layout(binding = 3, scalar) uniform MapParams { GnEsmParams map_params; };
 layout(location = 0) out vec4 out_moments;
 )";
-    moments.fragment.body = "out_moments = vec4(gn_esm_encode(depth, map_params.exponent), 0, 0, 0);";
-    moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    moments.fragment.body = "out_moments = vec4(gn_esm_encode(depth, u.params.exponent), 0, 0, 0);";
+    moments.fragment.inputs.constant("GnEsmParams", "params", params);
     moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap; the fallback compares depths, and skips what a pyramid of their ranges decides.
-    ShadowMap map = filtered_map(input, raw, params.prefilter);
+    ShadowMap map = filtered_map(input, "exponentials", raw, params.prefilter);
     if (params.fallback != 0) {
         const TextureHandle depths = params.samples > 1 ? add_spread(input, moments.depth) : moments.depth;
-        map.extra = add_min_max_pyramid(input.graph, depths);
+        map.offers.push_back({"ranges", add_min_max_pyramid(input.graph, depths), nearest()});
     }
     return map;
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnEsmParams>("esm").prefilter);
 }
 
@@ -94,7 +93,8 @@ const Part& map_esm() {
         p.stage = Stage::map;
         p.title = "Exponential shadow maps";
         p.citation = "AMS+08";
-        p.gives = "filterable";
+        p.gives = {"filterable", "exponentials", "ranges"};
+        p.textures = {"exponentials", "ranges"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnEsmParams>(with_prefilter(
             {

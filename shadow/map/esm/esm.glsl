@@ -161,10 +161,10 @@ float gn_esm_greatest(sampler2DArray ranges, GnProjected projected, GnEsmKernel 
     return gn_pyramid_min_max(ranges, first, last, projected.layer, textureQueryLevels(ranges)).y;
 }
 
-// `extra` is the pyramid of depths that the fallback compares with; without fallback nothing of use.
-float gn_esm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                        GnEsmParams params) {
-    float mean = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).r;
+// `ranges` is the pyramid of depths that the fallback compares with; without fallback nothing reads it.
+float gn_esm_visibility(GnLookup at, sampler2DArray exponentials, sampler2DArray ranges, vec2 ddx_ts, vec2 ddy_ts, GnEsmParams params) {
+    GnProjected projected = at.projected;
+    float mean = textureGrad(exponentials, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).r;
     float depth = gn_esm_receiver(projected, params.exponent);
     float product = gn_esm_product(mean, depth, params.exponent);
     GN_EXPECT(gn_finite(product) && product >= 0.0);
@@ -172,11 +172,11 @@ float gn_esm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected pr
         GnEsmKernel kernel = gn_esm_kernel(projected, abs(ddx_ts) + abs(ddy_ts), params);
         float most = product;
         if (params.classifier == GN_ESM_MAXIMUM) {
-            float greatest = gn_esm_greatest(extra, projected, kernel);
+            float greatest = gn_esm_greatest(ranges, projected, kernel);
             most = gn_esm_product(gn_esm_encode(greatest, params.exponent), depth, params.exponent);
         }
         if (gn_esm_fails(most, params.epsilon)) {
-            return gn_esm_pcf(extra, projected, kernel);
+            return gn_esm_pcf(ranges, projected, kernel);
         }
     }
     return min(product, 1.0);

@@ -30,24 +30,23 @@ ShadowMap add_evsm(const FrameInput& input, const Recipe& recipe, const LightVie
     moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/evsm/evsm.glsl"
-layout(binding = 3, scalar) uniform MapParams { GnEvsmParams map_params; };
 layout(location = 0) out vec4 out_moments;
 )";
     moments.fragment.body = R"(
-    out_moments = gn_evsm_encode(depth, map_params.slope_moment != 0 ? slope : vec2(0.0), map_params);
+    out_moments = gn_evsm_encode(depth, u.params.slope_moment != 0 ? slope : vec2(0.0), u.params);
 )";
-    moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    moments.fragment.inputs.constant("GnEvsmParams", "params", params);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, raw, params.prefilter);
+    return filtered_map(input, "moments", raw, params.prefilter);
 }
 
 std::vector<Feature> features_for(const Recipe& recipe) {
     return filtering_features(recipe.of<GnEvsmParams>("evsm").format == GN_EVSM_FLOAT32);
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnEvsmParams>("evsm").prefilter);
 }
 
@@ -110,7 +109,8 @@ const Part& map_evsm() {
         p.stage = Stage::map;
         p.title = "Exponential variance shadow maps";
         p.citation = "Lau08";
-        p.gives = "filterable";
+        p.gives = {"filterable", "moments"};
+        p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();
         p.params_type = "GnEvsmParams";

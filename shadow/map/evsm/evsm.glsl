@@ -73,12 +73,12 @@ GN_FN float gn_evsm_receiver(GnProjected projected, float c) {
 }  // namespace gn::glsl
 #else
 
-float gn_evsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                         GnEvsmParams params) {
-    vec4 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
+float gn_evsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnEvsmParams params) {
+    GnProjected projected = at.projected;
+    vec4 m = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
     vec2 c = gn_evsm_exponents(params);
     float depth = gn_evsm_receiver(projected, max(c.x, c.y));
-    return gn_evsm_visible(moments, depth, gn_vsm_deviation(projected, params.min_deviation), params);
+    return gn_evsm_visible(m, depth, gn_vsm_deviation(projected, params.min_deviation), params);
 }
 
 #endif

@@ -126,7 +126,7 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
 
     // Keep the splits over frames where there is a sequence.
     bool fresh = true;
-    TextureDesc desc{.name = fmt::format("lvsm splits {}", input.light_index),
+    TextureDesc desc{.name = fmt::format("lvsm splits {}", input.light_id),
                      .format = VK_FORMAT_R32_SFLOAT,
                      .width = static_cast<std::uint32_t>(params.layers) + 1,
                      .height = source.layers};

@@ -22,8 +22,10 @@ ShadowMap add_lvsm(const FrameInput& input, const Recipe& recipe, const LightVie
     const TextureHandle warped = add_warp(input, depths, splits, params);
 
     // Blur and mipmap.
-    ShadowMap map = filtered_map(input, warped, params.prefilter);
-    map.extra = splits;
+    ShadowMap map = filtered_map(input, "moments", warped, params.prefilter);
+    if (splits.valid()) {
+        map.offers.push_back({"splits", splits, nearest()});
+    }
     return map;
 }
 
@@ -31,7 +33,7 @@ std::vector<Feature> features_for(const Recipe& recipe) {
     return filtering_features(recipe.of<GnLvsmParams>("lvsm").format == GN_LVSM_FLOAT32);
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnLvsmParams>("lvsm").prefilter);
 }
 
@@ -80,7 +82,8 @@ const Part& map_lvsm() {
         p.stage = Stage::map;
         p.title = "Layered variance shadow maps";
         p.citation = "LM08";
-        p.gives = "filterable";
+        p.gives = {"filterable", "moments", "splits"};
+        p.textures = {"moments", "splits"};
         p.features_for = features_for;
         p.params = rows();
         p.params_type = "GnLvsmParams";

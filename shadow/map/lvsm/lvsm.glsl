@@ -95,8 +95,8 @@ float gn_lvsm_layer_visibility(sampler2DArray map, sampler2DArray splits, GnProj
                          gn_vsm_deviation(projected, params.min_deviation), params);
 }
 
-float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                         GnLvsmParams params) {
+float gn_lvsm_visibility(GnLookup at, sampler2DArray moments, sampler2DArray splits, vec2 ddx_ts, vec2 ddy_ts, GnLvsmParams params) {
+    GnProjected projected = at.projected;
     // Find the receiver's layer.
     int i = params.splits == GN_LVSM_UNIFORM ? gn_lvsm_equal_layer(projected.depth, params.layers) : 0;
     while (params.splits != GN_LVSM_UNIFORM && i + 1 < params.layers &&
@@ -108,9 +108,9 @@ float gn_lvsm_visibility(sampler2DArray map, sampler2DArray splits, GnProjected 
 
     // Just behind a split both its layers answer.
     float reach = min(params.transition * gn_lvsm_overlap(params), far_split - near_split);
-    float v = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i, params);
+    float v = gn_lvsm_layer_visibility(moments, splits, projected, ddx_ts, ddy_ts, i, params);
     if (i > 0 && projected.depth - near_split < reach) {
-        float nearer = gn_lvsm_layer_visibility(map, splits, projected, ddx_ts, ddy_ts, i - 1, params);
+        float nearer = gn_lvsm_layer_visibility(moments, splits, projected, ddx_ts, ddy_ts, i - 1, params);
         v = gn_lvsm_between(nearer, v, projected.depth - near_split, reach);
     }
     return v;

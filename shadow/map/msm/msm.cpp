@@ -20,22 +20,21 @@ ShadowMap add_msm(const FrameInput& input, const Recipe& recipe, const LightView
     moments.mips = drawn_mips(params.prefilter, views.resolution);
     moments.fragment.includes = R"(
 #include "shadow/map/msm/msm.glsl"
-layout(binding = 3, scalar) uniform MapParams { GnMsmParams map_params; };
 layout(location = 0) out vec4 out_moments;
 )";
-    moments.fragment.body = "out_moments = gn_msm_encode(depth, map_params.format);";
-    moments.bind_values = [params](Recorder& r) { r.set_value("MapParams", params); };
+    moments.fragment.body = "out_moments = gn_msm_encode(depth, u.params.format);";
+    moments.fragment.inputs.constant("GnMsmParams", "params", params);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, raw, params.prefilter);
+    return filtered_map(input, "moments", raw, params.prefilter);
 }
 
 std::vector<Feature> features_for(const Recipe& recipe) {
     return filtering_features(recipe.of<GnMsmParams>("msm").format == GN_MSM_FLOAT32);
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnMsmParams>("msm").prefilter);
 }
 
@@ -76,7 +75,8 @@ const Part& map_msm() {
         p.stage = Stage::map;
         p.title = "Moment shadow maps";
         p.citation = "PK15";
-        p.gives = "filterable";
+        p.gives = {"filterable", "moments"};
+        p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();
         p.params_type = "GnMsmParams";

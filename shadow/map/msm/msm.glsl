@@ -117,9 +117,9 @@ float gn_msm_ramp(GnProjected projected, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams p
     return dot(abs(projected.plane_slope), half_ts);
 }
 
-float gn_msm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                        GnMsmParams params) {
-    vec4 stored = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
+float gn_msm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams params) {
+    GnProjected projected = at.projected;
+    vec4 stored = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
     float bias = params.ramp * gn_msm_ramp(projected, ddx_ts, ddy_ts, params);
     return gn_msm_visible(stored, projected.depth - bias - params.depth_bias / projected.metres_per_depth, params);
 }

@@ -28,13 +28,12 @@ ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const Light
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Sum.
-    ShadowMap map;
-    map.texture = add_sat(input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box});
-    map.sampler = nearest();
-    return map;
+    const TextureHandle sums =
+        add_sat(input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box});
+    return {.offers = {{"sums", sums, nearest()}}};
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return {.texels = recipe.of<GnSatVsmParams>("sat-vsm").radius};
 }
 
@@ -73,7 +72,8 @@ const Part& map_sat_vsm() {
         p.stage = Stage::map;
         p.title = "Summed-area variance shadow maps";
         p.citation = "Lau07";
-        p.gives = "filterable";
+        p.gives = {"filterable", "sums"};
+        p.textures = {"sums"};
         p.params = rows();
         p.params_type = "GnSatVsmParams";
         p.glsl = "shadow/map/sat_vsm/sat_vsm.glsl";

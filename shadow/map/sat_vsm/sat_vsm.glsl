@@ -81,8 +81,8 @@ vec2 gn_sat_mean(sampler2DArray table, int layer, ivec2 x, ivec2 y, GnSatVsmPara
     return vec2(sum) / (area * gn_sat_levels(params.max_box));
 }
 
-float gn_sat_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                            GnSatVsmParams params) {
+float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
+    GnProjected projected = at.projected;
     // The box that holds the footprint, at least the kernel asked for.
     vec2 t = projected.uv_ts / projected.texel_ts;
     vec2 side = max((abs(ddx_ts) + abs(ddy_ts)) / projected.texel_ts, vec2(2.0 * params.radius + 1.0));
@@ -95,7 +95,7 @@ float gn_sat_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjecte
     for (int y = 0; y < 2; ++y) {
         for (int x = 0; x < 2; ++x) {
             float weight = (x == 0 ? 1.0 - u.weight : u.weight) * (y == 0 ? 1.0 - v.weight : v.weight);
-            moments += weight * gn_sat_mean(map, projected.layer, gn_sat_cut(u, x, bounds.x, bounds.z),
+            moments += weight * gn_sat_mean(sums, projected.layer, gn_sat_cut(u, x, bounds.x, bounds.z),
                                             gn_sat_cut(v, y, bounds.y, bounds.w), params);
         }
     }

@@ -13,11 +13,10 @@ namespace gn {
 namespace {
 
 constexpr const char* join_text = R"(
-layout(binding = 0) uniform sampler2DArray points;
 layout(location = 0) out vec4 out_texel;
 void main() {
     ivec3 texel = ivec3(ivec2(gl_FragCoord.xy), push_layer);
-    out_texel = vec4(texelFetch(source, texel, 0).r, texelFetch(points, texel, 0).r, 0.0, 0.0);
+    out_texel = vec4(GN_SOURCE(texel).r, texelFetch(points, texel, 0).r, 0.0, 0.0);
 }
 )";
 
@@ -35,12 +34,12 @@ ShadowMap add_silhouette_map(const FrameInput& input, const Recipe& recipe, cons
     const TextureHandle points = add_silhouette_points(input, views, depth);
     desc.name = "map";
     desc.format = VK_FORMAT_R32G32_SFLOAT;
-    ShadowMap map;
-    map.texture = input.graph.create(desc);
-    map.sampler = nearest();
-    add_layer_passes(input, depth, map.texture,
-                     {.name = "silhouettes: join", .text = join_text, .more = {{"points", points}}});
-    return map;
+    const TextureHandle map = input.graph.create(desc);
+    add_layer_passes(input, depth, map,
+                     {.name = "silhouettes: join",
+                      .text = join_text,
+                      .inputs = ShaderInputs().texture("sampler2DArray", "points", points, nearest())});
+    return {.offers = {{"silhouettes", map, nearest()}}};
 }
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
@@ -61,7 +60,7 @@ const Part& map_silhouette_map() {
         p.stage = Stage::map;
         p.title = "Depth and silhouette points";
         p.citation = "SCH03";
-        p.gives = "silhouettes";
+        p.gives = {"silhouettes"};
         p.add_map = add_silhouette_map;
         p.refuses = refuses;
         return p;

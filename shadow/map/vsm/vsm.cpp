@@ -25,10 +25,10 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, raw, params.prefilter);
+    return filtered_map(input, "moments", raw, params.prefilter);
 }
 
-Guard guard(const Recipe& recipe) {
+Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return blur_guard(recipe.of<GnVsmParams>("vsm").prefilter);
 }
 
@@ -47,7 +47,8 @@ const Part& map_vsm() {
         p.stage = Stage::map;
         p.title = "Variance shadow maps";
         p.citation = "DL06";
-        p.gives = "filterable";
+        p.gives = {"filterable", "moments"};
+        p.textures = {"moments"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnVsmParams>(with_prefilter(
             {

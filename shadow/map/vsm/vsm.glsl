@@ -56,12 +56,12 @@ GN_FN float gn_vsm_reduce(float bound, float amount, int reduction) {
 }  // namespace gn::glsl
 #else
 
-float gn_vsm_visibility(sampler2DArray map, sampler2DArray extra, GnProjected projected, vec2 ddx_ts, vec2 ddy_ts,
-                        GnVsmParams params) {
-    vec2 moments = textureGrad(map, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).xy;
+float gn_vsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
+    GnProjected projected = at.projected;
+    vec2 m = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).xy;
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
-    moments = gn_vsm_limit(moments, params.max_deviation);
-    float bound = gn_vsm_chebyshev(moments, projected.depth, deviation * deviation);
+    m = gn_vsm_limit(m, params.max_deviation);
+    float bound = gn_vsm_chebyshev(m, projected.depth, deviation * deviation);
     return gn_vsm_reduce(bound, params.bleeding, params.reduction);
 }
 

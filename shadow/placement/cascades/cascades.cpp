@@ -40,7 +40,7 @@ bool layered(const Device& device, const GnCascadesParams& params) {
 /// does not steer a warp.
 GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit, double near) {
     const GnLight& light = input.light().shape;
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(input, recipe);
     if (fit == GN_FIT_PLAIN) {
         return plain_view(body, facing(input.samples.camera, light), recipe.resolution, guard);
     }
@@ -83,7 +83,8 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
                                           glm::length(dvec3(row_of(view.cs_from_ws, 1))));
             texel = std::max(texel, 2 / least / recipe.resolution);
         }
-        const Interval depth = with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(recipe), texel, 0);
+        const Interval depth =
+            with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(input, recipe), texel, 0);
         for (GnLightView& view : views.views) {
             set_depth_range(view, light, depth);
         }
@@ -100,7 +101,8 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
     std::vector<Window> windows;
     for (const Interval& slice : slices) {
         const Sphere sphere = sphere_around(slice, camera, aspect);
-        const Grid grid = grid_of(sphere, input.light().shape, scene_ws, recipe.resolution, guard_of(recipe), spare);
+        const Grid grid =
+            grid_of(sphere, input.light().shape, scene_ws, recipe.resolution, guard_of(input, recipe), spare);
         const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
         windows.push_back({grid, centre});
         views.views.push_back(params.snap != 0 ? view_of(grid, window_around(grid, centre)) : loose_view(grid, centre));
@@ -140,7 +142,8 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     for (const GnLightView& view : views.views) {
         views.casters.push_back(casters_of(input.scene, view));
     }
-    views.data = pack(params, range, facing(input.samples.camera, input.light().shape), views.views, guard_of(recipe));
+    views.data =
+        pack(params, range, facing(input.samples.camera, input.light().shape), views.views, guard_of(input, recipe));
     return views;
 }
 

@@ -105,8 +105,8 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
                   std::span<const Window> windows, LightViews& views) {
     KeptViews kept;
     kept.history = input.history;
-    kept.name = fmt::format("light {} {} {} {} {}", input.light_index, recipe.name, recipe.overrides,
-                            recipe.map != nullptr ? recipe.map->id : "", recipe.casters);
+    kept.name = fmt::format("light {} {} {} {} {}", input.light_id, recipe.name, recipe.overrides,
+                            recipe.map != nullptr ? recipe.map->id : "", name_of(recipe.casters));
     auto& state = input.history->value<KeptState>("cascades of " + kept.name);
     const Fingerprint casting = casting_of(input.scene, input.light());
     if (state.version != input.handles.version || state.casting != casting || state.cascades.size() != windows.size()) {

@@ -24,7 +24,7 @@ ComputeDesc shader(const char* name, const char* file) {
 GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params) {
     const Camera& camera = input.samples.camera;
     const LightFrame frame = facing(camera, input.light().shape);
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(input, recipe);
     const dvec3 eye(camera.position_ws);
     const auto axis = [&](dvec3 direction) { return vec4(dvec4(direction, glm::dot(direction, eye))); };
     GnSdsmConstants u;
@@ -80,7 +80,7 @@ std::vector<std::uint32_t> possible_casters(const FrameInput& input, const Recip
     if (body.empty()) {
         return {};
     }
-    Guard guard = guard_of(recipe);
+    Guard guard = guard_of(input, recipe);
     guard.metres += 2e-4F * input.samples.camera.far;  // the least side of a view
     const LightFrame frame = facing(input.samples.camera, input.light().shape);
     std::set<std::uint32_t> casters;

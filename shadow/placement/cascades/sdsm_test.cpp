@@ -21,7 +21,7 @@ TEST(CascadesRendered, SampleDistributionViewsHoldEverySample) {
     for (const char* split : {"sdsm-minmax", "sdsm-histogram", "sdsm-minmax,cascades.select=projection"}) {
         const std::string text = std::string("pcf,resolution=256,placement=cascades,cascades.split=") + split;
         const Rendered frame = render(gpu, camera, camera, text);
-        const float limit = 1 - 2 * guard_of(load_recipe(text)).texels / 256 + 1e-4F;
+        const float limit = 1 - 2 * guard_of(load_recipe(text), {}, {}).texels / 256 + 1e-4F;
         std::vector<int> served(4, 0);
         for (std::size_t p = 0; p < frame.samples.position_ws.size(); ++p) {
             const vec3 p_ws(frame.samples.position_ws[p]);
@@ -54,7 +54,7 @@ TEST(CascadesRendered, SampleDistributionBoxesTurnToTheLeastArea) {
     SceneGpu gpu = upload_scene(device(), scene);
     const std::string text =
         "hard,resolution=256,placement=cascades,cascades.split=sdsm-minmax,cascades.transition=none";
-    const double share = static_cast<double>(guard_of(load_recipe(text)).texels) / 256;
+    const double share = static_cast<double>(guard_of(load_recipe(text), {}, {}).texels) / 256;
     double least_ratio = 1;
     for (const Camera& camera : scene.cameras) {
         const Rendered frame = render(gpu, camera, camera, text);

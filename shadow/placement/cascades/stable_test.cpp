@@ -134,7 +134,7 @@ TEST(CascadeStable, SlicesBeginWhereTheSceneDoes) {
     const auto range = [&](double distance) {
         ViewSamples samples{.width = 160, .height = 90};
         samples.camera = {.position_ws = vec3(0, 0, 10 + distance), .yfov = 0.5F, .near = 0.1F, .far = 1000};
-        const FrameInput input{device(), graph, scene, handles, samples, nullptr, 0};
+        const FrameInput input{device(), graph, scene, handles, samples, scene.lights.data()};
         return range_of(input, GnCascadesParams{});
     };
     EXPECT_EQ(range(-1).near, static_cast<double>(0.1F));

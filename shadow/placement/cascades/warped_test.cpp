@@ -34,7 +34,7 @@ TEST(CascadesWarped, ReceiversLieInsideTheirMapsWithLinearDepth) {
     for (const char* transition : {"none", "blend", "dither"}) {
         const std::string text = std::string(warped) + ",resolution=512,cascades.transition=" + transition;
         const Rendered frame = render(gpu, camera, camera, text);
-        const Guard guard = guard_of(load_recipe(text));
+        const Guard guard = guard_of(load_recipe(text), {}, {});
         const float limit = 1 - 2 * guard.texels / 512 + 1e-4F;
         std::vector<int> served(4, 0);
         for (std::size_t i = 0; i < frame.samples.position_ws.size(); ++i) {

@@ -122,7 +122,7 @@ GnLightView resized(const GnLightView& face, double far, double tangent) {
 /// Shrinks and packs the faces. A face without receivers keeps a square of the smallest size that nothing is drawn to.
 void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& recipe) {
     // Halve only while squares stay whole and kernels stay small against them.
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(input, recipe);
     int most = 0;
     while (most < 4 && recipe.resolution % (2 << most) == 0 &&
            static_cast<float>(recipe.resolution >> (most + 1)) >= std::max(16.0F, 6 * guard.texels)) {

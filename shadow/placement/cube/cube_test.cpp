@@ -23,13 +23,13 @@ TEST(Cube, EveryDirectionFallsInsideItsFaceWithRoomForTheKernel) {
     FrameGraph graph(test::device());
     const SceneHandles handles;
     const ViewSamples samples;
-    const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+    const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
     Recipe recipe = load_recipe("pcf,resolution=256,pcf.size=9");
     LightViews views;
     add_cube_views(views, input, recipe);
     ASSERT_EQ(views.views.size(), 6U);
 
-    const double reach = 2.0 * static_cast<double>(guard_of(recipe).texels) / 256;
+    const double reach = 2.0 * static_cast<double>(guard_of(recipe, {}, {}).texels) / 256;
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     for (int i = 0; i < 2000; ++i) {
@@ -81,7 +81,7 @@ TEST(CubeCoverage, DirectionsFallInsideTheirSquareWithRoomForTheKernel) {
     const Scene scene = load_scene("duel:light=point");
     const LightViews views = test::place(scene, by_coverage);
     const vec3 eye_ws(scene.lights[0].shape.position_ws);
-    const float guard = guard_of(load_recipe(by_coverage)).texels;
+    const float guard = guard_of(load_recipe(by_coverage), {}, {}).texels;
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     for (int i = 0; i < 2000; ++i) {

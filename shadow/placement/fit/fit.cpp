@@ -18,10 +18,10 @@ LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
         body = body_of(Box{vec3(-1), vec3(1)});
     }
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
-        views.views = {fit_orthographic(body, light, recipe.resolution, guard_of(recipe))};
+        views.views = {fit_orthographic(body, light, recipe.resolution, guard_of(input, recipe))};
         return views;
     }
-    const Fitted fitted = fit_perspective(body, light, recipe.resolution, guard_of(recipe));
+    const Fitted fitted = fit_perspective(body, light, recipe.resolution, guard_of(input, recipe));
     if (fitted.valid) {
         views.views = {fitted.view};
     } else {

@@ -120,14 +120,14 @@ TEST(Lispsm, HullTouchesAllFourBorders) {
         FrameGraph graph(test::device());
         const SceneHandles handles;
         const ViewSamples samples{.width = 256, .height = 256, .camera = scene.cameras.front()};
-        const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+        const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
         dvec2 low(1e9);
         dvec2 high(-1e9);
         for (const dvec3& p : potential_receivers(input).vertices()) {
             low = glm::min(low, test::uv_of(views.views[0], p));
             high = glm::max(high, test::uv_of(views.views[0], p));
         }
-        const double guard = static_cast<double>(guard_of(load_recipe("pcf,pcf.size=9")).texels) / resolution;
+        const double guard = static_cast<double>(guard_of(load_recipe("pcf,pcf.size=9"), {}, {}).texels) / resolution;
         for (int axis = 0; axis < 2; ++axis) {
             EXPECT_NEAR(low[axis], guard, 1.0 / resolution) << to_light.x << " axis " << axis;
             EXPECT_NEAR(high[axis], 1 - guard, 1.0 / resolution) << to_light.x << " axis " << axis;
@@ -206,7 +206,7 @@ TEST(Lispsm, WorstTexelOnScreenIsNeverWorseThanFits) {
     FrameGraph graph(test::device());
     const SceneHandles handles;
     const ViewSamples samples{.width = 256, .height = 256, .camera = camera};
-    const FrameInput input{test::device(), graph, scene, handles, samples, nullptr, 0};
+    const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
     // Of the receivers that steer the warp: those beyond the pseudo-near plane.
     double end = 0;
     for (const dvec3& p : potential_receivers(input).vertices()) {

@@ -35,7 +35,7 @@ LightViews place_paraboloid(const FrameInput& input, const Recipe& recipe) {
     const double far = reach_of(input);
 
     // Leave room for kernels; a world radius is widest in angle where receivers are nearest and is held to a tenth.
-    const Guard guard = guard_of(recipe);
+    const Guard guard = guard_of(input, recipe);
     const double share = std::min(0.4, static_cast<double>(guard.texels) / recipe.resolution);
     const double extent = 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0);
 

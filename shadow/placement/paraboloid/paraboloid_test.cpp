@@ -180,7 +180,7 @@ TEST(Paraboloid, BothHemispheresHoldTheirKernels) {
     const Recipe recipe = load_recipe("pcf,pcf.size=9,placement=paraboloid,resolution=256");
     const LightViews views = test::place(scene, "pcf,pcf.size=9,placement=paraboloid,resolution=256");
     ASSERT_EQ(views.views.size(), 2U);
-    const float guard = guard_of(recipe).texels / 256;
+    const float guard = guard_of(recipe, {}, {}).texels / 256;
     Directions direction;
     for (int i = 0; i < 2000; ++i) {
         const vec3 d_ws = direction();

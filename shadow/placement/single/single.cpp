@@ -19,12 +19,12 @@ LightViews place_single(const FrameInput& input, const Recipe& recipe) {
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
         // Cover the scene's box.
         Box box_ws = input.scene.bounds_ws.empty() ? Box{vec3(-1), vec3(1)} : input.scene.bounds_ws;
-        views.views = {fit_orthographic(body_of(box_ws), light, recipe.resolution, guard_of(recipe))};
+        views.views = {fit_orthographic(body_of(box_ws), light, recipe.resolution, guard_of(input, recipe))};
         return views;
     }
     // Cover the spot's cone, widened by the kernels' reach.
     const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
-    const double share = std::min(0.4, static_cast<double>(guard_of(recipe).texels) / recipe.resolution);
+    const double share = std::min(0.4, static_cast<double>(guard_of(input, recipe).texels) / recipe.resolution);
     const double far = reach_of(input);
     vec3 x;
     vec3 y;
