@@ -133,6 +133,7 @@ struct LightViews {
     BufferHandle data_buffer;     ///< GnPlacementData likewise
     std::vector<std::vector<std::uint32_t>>
         casters;                    ///< per view: indices into Scene::objects that may cast; empty: all
+    bool crosses = false;           ///< kernels may leave a view's rectangle, and go on in the view that serves the tap
     bool layered = false;           ///< one pass draws all views, each a whole layer of its own
     std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything
 };

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shadow/placement/place.h"
-#include "shadow/placement/receivers.h"
+
 #include "tests/rig.h"
 
 namespace gn::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What maps keep of their casters: the surfaces between two known sheets, exactly, and the failure that each mode has.
 #include "shadow/casters/caster_depth.glsl"
+#include "shadow/placement/light_views.h"
 
 #include "scenes/analytic.h"
 #include "tests/warp_scene.h"

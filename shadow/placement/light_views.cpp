@@ -2,7 +2,9 @@
 // Light views around convex bodies: orthographic for the sun, perspective for lights with a position.
 //
 // Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
-#include "shadow/placement/receivers.h"
+#include "shadow/placement/light_views.h"
+
+#include "shadow/geometry/potential_receivers.h"
 
 #include <algorithm>
 
@@ -217,13 +219,13 @@ GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tan
     return perspective(eye_ws, axis_ws, right, down, dvec2(-tangent), dvec2(tangent), near, far, resolution);
 }
 
-void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& recipe) {
+void add_cube_views(LightViews& views, const FrameInput& input, const Guard& guard, int resolution) {
     const vec3 eye_ws(input.light().shape.position_ws);
     const double far = reach_of(input);
-    const double share = std::min(0.4, static_cast<double>(guard_of(input, recipe).texels) / recipe.resolution);
+    const double share = std::min(0.4, static_cast<double>(guard.texels) / resolution);
 
     // A world radius is widest in angle where receivers are nearest; it is held to a tenth of the face.
-    const double tangent = 1 / (1 - 2 * share) + (guard_of(input, recipe).metres > 0 ? 0.1 : 0.0);
+    const double tangent = 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0);
     const std::array<std::pair<vec3, vec3>, 6> faces{{{vec3(1, 0, 0), vec3(0, 1, 0)},
                                                       {vec3(-1, 0, 0), vec3(0, 1, 0)},
                                                       {vec3(0, 1, 0), vec3(0, 0, 1)},
@@ -232,12 +234,15 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Recipe& re
                                                       {vec3(0, 0, -1), vec3(0, 1, 0)}}};
     views.views.clear();
     for (const auto& [axis_ws, up_ws] : faces) {
-        views.views.push_back(
-            square_perspective(eye_ws, axis_ws, up_ws, tangent, near_plane(far), far, recipe.resolution));
+        views.views.push_back(square_perspective(eye_ws, axis_ws, up_ws, tangent, near_plane(far), far, resolution));
         views.views.back().layer = static_cast<int>(views.views.size()) - 1;
     }
     views.layers = 6;
     views.data[0] = vec4(eye_ws, 1);
+}
+
+double near_plane(double far) {
+    return 1e-4 * far;
 }
 
 }  // namespace gn

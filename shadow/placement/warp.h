@@ -5,7 +5,9 @@
 // Based on: Wimmer, Scherzer, Purgathofer. Light Space Perspective Shadow Maps. EGSR 2004. [WSP04]
 #pragma once
 
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/placement/light_views.h"
 
 #include <optional>
 

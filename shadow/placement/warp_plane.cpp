@@ -166,7 +166,7 @@ LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_ne
     } else {
         const Fitted fit = fit_perspective(body, light, recipe.resolution, guard_of(input, recipe));
         if (!fit.valid) {
-            add_cube_views(views, input, recipe);
+            add_cube_views(views, input, guard_of(input, recipe), recipe.resolution);
             return views;
         }
         fitted = fit.view;

@@ -2,6 +2,7 @@
 // Each bias obeys its law, on the CPU from the very source that shaders include; the default needs no tuning: no acne up
 // to 85 degrees, no gap wider than 1.5 texels.
 #include "scenes/analytic.h"
+#include "shadow/placement/light_views.h"
 #include "shadow/receiver/receiver.glsl"
 #include "shadow/receiver/sample_pass.h"
 #include "tests/warp_scene.h"

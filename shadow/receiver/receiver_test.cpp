@@ -2,7 +2,8 @@
 // Laws of projection and bias, on the CPU from the very source that shaders include.
 #include "shadow/receiver/receiver.glsl"
 
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/placement/light_views.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/receiver/sample_pass.h"
 
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/recipe/guard.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "shadow/show/show.h"
 
 #include "shadow/placement/cascades/cascades.glsl"
-#include "shadow/placement/receivers.h"
+#include "shadow/placement/light_views.h"
 #include "shadow/show/show.glsl"
 #include "tests/rig.h"
 

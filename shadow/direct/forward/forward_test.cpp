@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/direct/forward/forward.glsl"
 
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/placement/light_views.h"
 #include "tests/rig.h"
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/placement/receivers.h"
+
 #include "tests/rig.h"
 
 #include <cstring>

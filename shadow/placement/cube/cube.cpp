@@ -6,7 +6,10 @@
 // Departs from it: a 2D array whose faces overlap by the kernels' reach, where hardware cubes would filter across faces.
 #include "shadow/placement/cube/cube.h"
 
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/placement/light_views.h"
+#include "shadow/recipe/guard.h"
 
 #include <algorithm>
 #include <numeric>
@@ -120,9 +123,8 @@ GnLightView resized(const GnLightView& face, double far, double tangent) {
 }
 
 /// Shrinks and packs the faces. A face without receivers keeps a square of the smallest size that nothing is drawn to.
-void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& recipe) {
+void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& recipe, const Guard& guard) {
     // Halve only while squares stay whole and kernels stay small against them.
-    const Guard guard = guard_of(input, recipe);
     int most = 0;
     while (most < 4 && recipe.resolution % (2 << most) == 0 &&
            static_cast<float>(recipe.resolution >> (most + 1)) >= std::max(16.0F, 6 * guard.texels)) {
@@ -142,7 +144,7 @@ void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& rec
         const double share = static_cast<double>(guard.texels) / (recipe.resolution >> size_of(i));
         views.views[i] = resized(views.views[i], reach_of(input), 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0));
         shelf.put(views.views[i], size_of(i));
-        views.casters[i] = halved[i] < 0 ? std::vector<std::uint32_t>{} : all;
+        views.casters[i] = halved[i] < 0 && !views.crosses ? std::vector<std::uint32_t>{} : all;
     }
     views.layers = static_cast<std::uint32_t>(views.views[order.back()].layer) + 1;
 }
@@ -150,10 +152,12 @@ void fit_to_screen(LightViews& views, const FrameInput& input, const Recipe& rec
 LightViews place_cube(const FrameInput& input, const Recipe& recipe) {
     LightViews views;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
-    add_cube_views(views, input, recipe);
+    const auto params = recipe.of<GnCubeParams>("cube");
+    views.crosses = params.edges == GN_CUBE_CROSS;
+    add_cube_views(views, input, views.crosses ? Guard{.texels = 1} : guard_of(input, recipe), recipe.resolution);
     const bool seen = !potential_receivers(input).empty();
-    if (seen && recipe.of<GnCubeParams>("cube").resolution == GN_CUBE_COVERAGE) {
-        fit_to_screen(views, input, recipe);
+    if (seen && params.resolution == GN_CUBE_COVERAGE) {
+        fit_to_screen(views, input, recipe, views.crosses ? Guard{.texels = 1} : guard_of(input, recipe));
     }
     return views;
 }
@@ -175,6 +179,11 @@ const Part& placement_cube() {
                       "Gives all faces the same texels, or each as many as it covers of the screen: less memory and "
                       "time, and texels that change size with the view.",
                       "equal", "coverage"),
+            GN_CHOICE(
+                GnCubeParams, edges,
+                "What kernels read beyond a face's edge: a border that every face has for them, which costs texels "
+                "and cannot hold a radius in metres near the light, or the next face, which costs time there.",
+                "guard", "cross"),
         });
         p.params_type = "GnCubeParams";
         p.glsl = "shadow/placement/cube/cube.glsl";

@@ -3,7 +3,10 @@
 // before the near plane are kept by depth clamping.
 //
 // Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/placement/light_views.h"
+#include "shadow/recipe/guard.h"
 
 namespace gn {
 namespace {
@@ -26,7 +29,7 @@ LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
         views.views = {fitted.view};
     } else {
         // The receivers surround the light.
-        add_cube_views(views, input, recipe);
+        add_cube_views(views, input, guard_of(input, recipe), recipe.resolution);
     }
     return views;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/placement/receivers.h"
+
 #include "tests/warp_scene.h"
 
 namespace gn {

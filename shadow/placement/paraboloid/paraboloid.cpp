@@ -4,7 +4,8 @@
 // Based on: Brabec, Annen, Seidel. Shadow Mapping for Hemispherical and Omnidirectional Light Sources. CGI 2002. [BAS02]
 // Departs from it: texels are drawn by their own rays, so that edges are curved as they must be and no mesh needs
 // tessellation; each map reaches beyond its hemisphere by the kernels' reach.
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/recipe/guard.h"
 
 namespace gn {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Laws of the mirror on the CPU, and its pictures against traced truth and against a cube's.
 #include "shadow/receiver/paraboloid.glsl"
+#include "shadow/recipe/guard.h"
 
 #include "shadow/receiver/receiver.glsl"
 #include "tests/warp_scene.h"

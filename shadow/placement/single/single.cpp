@@ -2,7 +2,10 @@
 // One map over everything the light sees: the spot's own frustum, or the scene's bounds for the sun.
 //
 // Based on: Williams. Casting Curved Shadows on Curved Surfaces. SIGGRAPH 1978. [Wil78]
-#include "shadow/placement/receivers.h"
+#include "shadow/geometry/convex_body.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/placement/light_views.h"
+#include "shadow/recipe/guard.h"
 #include "shadow/scene/clusters.h"
 
 #include <algorithm>

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
-#include "shadow/placement/receivers.h"
-
-#include "shadow/scene/clusters.h"
+#include "shadow/geometry/convex_body.h"
 
 #include <algorithm>
 
@@ -138,117 +135,6 @@ ConvexBody clip(const ConvexBody& body, const Plane& plane) {
         clipped.faces_ws.push_back(ordered(std::move(lid), plane.normal_ws));
     }
     return clipped;
-}
-
-namespace {
-
-/// The box with a little thickness, so that a flat one has a volume, inside the camera's frustum.
-ConvexBody seen_of(const Box& box_ws, const std::vector<Plane>& frustum) {
-    const vec3 thickness(1e-5F * box_ws.diagonal());
-    ConvexBody body = body_of(Box{box_ws.min - thickness, box_ws.max + thickness});
-    for (const Plane& plane : frustum) {
-        body = clip(body, plane);
-    }
-    return body;
-}
-
-std::vector<Plane> frustum_of(const FrameInput& input, double near, double far) {
-    const float aspect = static_cast<float>(input.samples.width) / static_cast<float>(input.samples.height);
-    return frustum_planes(input.samples.camera, aspect, near, far);
-}
-
-}  // namespace
-
-Box seen_bounds(const FrameInput& input) {
-    const std::vector<Box> clusters = cluster_bounds(input.scene);
-    if (clusters.size() == 1) {
-        return clusters.front();
-    }
-    const Camera& camera = input.samples.camera;
-    const std::vector<Plane> frustum =
-        frustum_of(input, static_cast<double>(camera.near), static_cast<double>(camera.far));
-    Box seen;
-    for (const Box& box_ws : clusters) {
-        if (!seen_of(box_ws, frustum).empty()) {
-            seen.grow(box_ws);
-        }
-    }
-    return seen.empty() ? input.scene.bounds_ws : seen;
-}
-
-ConvexBody potential_receivers(const FrameInput& input) {
-    return potential_receivers(input, static_cast<double>(input.samples.camera.near),
-                               static_cast<double>(input.samples.camera.far));
-}
-
-ConvexBody potential_receivers(const FrameInput& input, double near, double far) {
-    // S ∩ V: the scene's box cut by the camera's frustum.
-    const Box box_ws = seen_bounds(input);
-    if (box_ws.empty()) {
-        return {};
-    }
-    ConvexBody body = seen_of(box_ws, frustum_of(input, near, far));
-
-    // ∩ L: within the light's range, before a rectangle's plane, inside a spot's pyramid.
-    const GnLight& light = input.light().shape;
-    const dvec3 axis(vec3(light.direction_ws));
-    const dvec3 eye(vec3(light.position_ws));
-    for (int side = 0; side < 6 && light.kind != GN_LIGHT_DIRECTIONAL && light.range > 0; ++side) {
-        dvec3 normal(0);
-        normal[side / 2] = side % 2 == 0 ? 1 : -1;
-        body = clip(body, {normal, static_cast<double>(light.range) - glm::dot(normal, eye)});
-    }
-    if (light.kind == GN_LIGHT_RECTANGLE || light.kind == GN_LIGHT_SPOT) {
-        body = clip(body, {axis, -glm::dot(axis, eye)});
-    }
-    if (light.kind == GN_LIGHT_SPOT && light.cos_outer > 0.1F) {
-        const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
-        vec3 x;
-        vec3 y;
-        complete_frame(vec3(light.direction_ws), x, y);
-        for (const dvec3 side : {dvec3(x), -dvec3(x), dvec3(y), -dvec3(y)}) {
-            const dvec3 normal = tangent * axis + side;
-            body = clip(body, {normal, -glm::dot(normal, eye)});
-        }
-    }
-    return body;
-}
-
-Guard guard_of(const FrameInput& input, const Recipe& recipe) {
-    return guard_of(recipe, input.light(), input.scene.bounds_ws);
-}
-
-Guard guard_of(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
-    Guard total;
-    for (const Part* part : {recipe.map, recipe.lookup}) {
-        if (part != nullptr && part->guard != nullptr) {
-            const Guard guard = part->guard(recipe, light, bounds_ws);
-            total.texels += guard.texels;
-            total.metres += guard.metres;
-            total.pixels += guard.pixels;
-        }
-    }
-    total.texels += 1;  // the receiver's own texel and the bias's shift
-    return total;
-}
-
-double farthest(const Box& box_ws, vec3 p_ws) {
-    double distance = 0;
-    for (const vec3 corner : box_ws.corners()) {
-        distance = std::max(distance, glm::length(dvec3(corner) - dvec3(p_ws)));
-    }
-    return distance;
-}
-
-double reach_of(const FrameInput& input) {
-    const GnLight& light = input.light().shape;
-    const double reach = farthest(seen_bounds(input), vec3(light.position_ws));
-    const double range = light.range > 0 ? static_cast<double>(light.range) : reach;
-    return 1.001 * std::min(reach, range);
-}
-
-double near_plane(double far) {
-    return 1e-4 * far;
 }
 
 }  // namespace gn

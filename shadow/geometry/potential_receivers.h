@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The potential shadow receivers PSR = L ∩ V ∩ S as a convex body, and how far a light must see for them.
+//
+// Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
+#pragma once
+
+#include "shadow/geometry/convex_body.h"
+#include "shadow/stages.h"
+
+namespace gn {
+
+/// The bounds of what the camera can see: of the scene's clusters that meet its frustum, so that a triangle that strayed
+/// far away widens no map and no depth range. All of the scene where the camera sees none.
+Box seen_bounds(const FrameInput& input);
+
+/// L ∩ V ∩ S for the whole view: what the light reaches of what the camera sees of the scene's box.
+ConvexBody potential_receivers(const FrameInput& input);
+/// The same between two distances along the camera's axis (one cascade).
+ConvexBody potential_receivers(const FrameInput& input, double near, double far);
+
+/// Distance from a point to the farthest corner of the box.
+double farthest(const Box& box_ws, vec3 p_ws);
+/// How far a light with a position must see: to the farthest of what the camera can see, or to the light's range, beyond
+/// which no sample counts.
+double reach_of(const FrameInput& input);
+
+}  // namespace gn

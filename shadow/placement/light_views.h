@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Light views around convex bodies: orthographic for the sun, perspective for lights with a position.
+#pragma once
+
+#include "shadow/geometry/convex_body.h"
+#include "shadow/recipe/guard.h"
+#include "shadow/stages.h"
+
+namespace gn {
+
+/// A rotation-free description of an orthographic or perspective light view.
+struct Fitted {
+    GnLightView view;
+    bool valid = false;
+};
+/// The tightest orthographic view along the light's direction around the body: the rectangle of least area. Casters
+/// before the near plane are kept by depth clamping. Guards widen it.
+GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
+/// The tightest perspective view from the light's position, near and far planes the body's own, or invalid when the body
+/// spans too wide an angle.
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
+/// A square perspective view along `axis` with half-angle tangent 1 x widen and linear depth between near and far.
+GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,
+                               int resolution);
+
+/// Six perspective views around the light, layers in the order of gn_face_of, each wider than 90 degrees by the kernels'
+/// reach; sets views, layers and data[0] = (light's position, 1).
+void add_cube_views(LightViews& views, const FrameInput& input, const Guard& guard, int resolution);
+
+/// Distance to the near plane of a light whose receivers may be anywhere: small, since depth is linear and costs no precision.
+double near_plane(double far);
+
+}  // namespace gn
