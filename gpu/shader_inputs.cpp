@@ -55,11 +55,11 @@ ShaderInputs& ShaderInputs::buffer(std::string_view kind, std::string_view block
 
 ShaderInputs& ShaderInputs::block(std::string_view kind, std::string_view block, std::string_view members,
                                   std::span<const std::byte> bytes) {
-    entries_.push_back({.kind = Kind::bytes,
-                        .name = std::string(block),
-                        .declaration =
-                            fmt::format("layout(binding = {{}}, scalar) {} {} {{{{ {} }}}};\n", kind, block, members),
-                        .bytes = {bytes.begin(), bytes.end()}});
+    entries_.push_back(
+        {.kind = Kind::bytes,
+         .name = std::string(block),
+         .declaration = fmt::format("layout(binding = {{}}, scalar) {} {} {{{{ {} }}}};\n", kind, block, members),
+         .bytes = {bytes.begin(), bytes.end()}});
     return *this;
 }
 

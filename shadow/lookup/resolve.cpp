@@ -36,6 +36,15 @@ void main() {
 }
 )";
 
+/// How a kernel that leaves its view finds the next one.
+std::string crossing_defines(const LightViews& views) {
+    return views.crosses ? fmt::format(
+                               "#define GN_CROSSING\n#define GN_CHOICE(receiver) gn_{}_choose(receiver, placement)\n"
+                               "#define GN_LIGHT_VIEW(i) views[i]\n",
+                               identifier(views.part->id))
+                         : "";
+}
+
 std::string prologue_of(const Part& part, const Recipe& recipe) {
     return part.prologue != nullptr ? part.prologue(recipe) : "";
 }
@@ -101,7 +110,7 @@ RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const L
     const Part& placement = *views.part;
     const Part& lookup = *recipe.lookup;
     std::string text = expect_text(input.device) + receiver_defines(recipe, views) +
-                       (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "") +
+                       (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "") + crossing_defines(views) +
                        fmt::format("#define GN_TWO_VIEWS {}\n", views.views.size() > 1);
     text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
     text += prologue_of(*recipe.map, recipe) + include_line(recipe.map->glsl);

@@ -5,7 +5,7 @@
 #define GN_SHADOW_LOOKUP_FILTERED_GLSL
 
 #include "shadow/lookup/filtered/filtered.h"
-#include "shadow/receiver/receiver.glsl"
+#include "shadow/receiver/map_access.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -40,8 +40,28 @@ GN_FN GnFootprint gn_filtered_footprint(GnReceiver receiver, GnProjected project
 
 // The map's own answer, which the host calls by this name:
 //   #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
+// Where kernels cross views:
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
+//   with #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
 float gn_filtered_visibility(GnLookup at, GnFilteredParams params) {
     GnFootprint footprint = gn_filtered_footprint(at.receiver, at.projected, params);
+#ifdef GN_CROSSING
+    // A footprint that leaves the view is four quarters, each in the view that serves its middle.
+    vec2 reach_ts = 0.5 * (abs(footprint.ddx_ts) + abs(footprint.ddy_ts)) + at.projected.texel_ts;
+    if (!gn_within_view(at.projected, at.projected.uv_ts - reach_ts, at.projected.uv_ts + reach_ts)) {
+        float sum = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            vec2 side = vec2((i & 1) == 0 ? -0.25 : 0.25, (i & 2) == 0 ? -0.25 : 0.25);
+            vec2 middle_ts = at.projected.uv_ts + side.x * footprint.ddx_ts + side.y * footprint.ddy_ts;
+            GnLookup tap = gn_at_tap(at, middle_ts);
+            GnFootprint quarter = gn_filtered_footprint(tap.receiver, tap.projected, params);
+            sum += GN_MAP_VISIBILITY(tap, 0.5 * quarter.ddx_ts, 0.5 * quarter.ddy_ts);
+        }
+        return 0.25 * sum;
+    }
+#endif
     return GN_MAP_VISIBILITY(at, footprint.ddx_ts, footprint.ddy_ts);
 }
 

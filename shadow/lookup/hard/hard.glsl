@@ -4,7 +4,7 @@
 #ifndef GN_SHADOW_LOOKUP_HARD_GLSL
 #define GN_SHADOW_LOOKUP_HARD_GLSL
 
-#include "shadow/receiver/receiver.glsl"
+#include "shadow/receiver/map_access.glsl"
 
 #ifndef __cplusplus
 // Where a host draws ids, `ids` holds them; else nothing reads `ids`:
@@ -14,11 +14,11 @@ float gn_hard_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids) 
     // Compare where the texel was sampled: at its centre.
     ivec2 texel = ivec2(floor(projected.uv_ts / projected.texel_ts));
     vec2 centre_ts = (vec2(texel) + 0.5) * projected.texel_ts;
-    float occluder = texelFetch(depth, ivec3(texel, projected.layer), 0).r;
+    float occluder = gn_map_texel(depth, at, texel).r;
     bool lit = gn_depth_at(projected, centre_ts, at.bias) <= occluder;
 #ifdef GN_CASTER_IDS
     // An object never shadows itself. [HN85]
-    lit = lit || texelFetch(ids, ivec3(texel, projected.layer), 0).r == float(at.receiver.object);
+    lit = lit || gn_map_texel(ids, at, texel).r == float(at.receiver.object);
 #endif
     return lit ? 1.0 : 0.0;
 }

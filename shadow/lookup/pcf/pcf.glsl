@@ -10,7 +10,7 @@
 
 #include "shadow/lookup/pcf/pcf.h"
 #include "shadow/receiver/noise.glsl"
-#include "shadow/receiver/receiver.glsl"
+#include "shadow/receiver/map_access.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -157,14 +157,30 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 
 // Where a host draws ids, `ids` holds them, and an object never shadows itself [HN85]; else nothing reads `ids`:
 //   #define GN_CASTER_IDS
+// Where kernels cross views (shadow/receiver/map_access.glsl), taps beyond the receiver's are compared one by one.
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
 vec4 gn_pcf_gather(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec2 corner_ts) {
     float half_ts = 0.5 * at.projected.texel_ts;
     vec2 d_ts = corner_ts - at.projected.uv_ts;
-    vec4 occluder = textureGather(depth, vec3(corner_ts, at.projected.layer));
+#ifdef GN_CROSSING
+    vec2 reach_ts = vec2(at.projected.texel_ts);
+    if (!gn_within_view(at.projected, corner_ts - reach_ts, corner_ts + reach_ts)) {
+        // In the order of a gather: (0,1), (1,1), (1,0), (0,0).
+        vec4 across;
+        for (int k = 0; k < 4; ++k) {
+            vec2 side = vec2(k == 1 || k == 2 ? half_ts : -half_ts, k < 2 ? half_ts : -half_ts);
+            across[k] = float(gn_lit_tap(depth, at, corner_ts + side));
+        }
+        return across;
+    }
+#endif
+    vec4 occluder = gn_map_gather(depth, at, corner_ts);
     vec4 lit = vec4(gn_lit_beside(at.projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
                                   d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, at.bias));
 #ifdef GN_CASTER_IDS
-    vec4 casters = textureGather(ids, vec3(corner_ts, at.projected.layer));
+    vec4 casters = gn_map_gather(ids, at, corner_ts);
     lit = max(lit, vec4(equal(casters, vec4(float(at.receiver.object)))));
 #endif
     return lit;
@@ -229,15 +245,26 @@ float gn_pcf_grid_over_pixel(GnLookup at, sampler2DArray depth, sampler2DArray i
 
 // Four taps of a disc kernel: the texels that they fall into, compared at the texels' centres.
 vec4 gn_pcf_taps(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec4 u_ts, vec4 v_ts) {
+#ifdef GN_CROSSING
+    vec2 low_ts = vec2(min(min(u_ts.x, u_ts.y), min(u_ts.z, u_ts.w)), min(min(v_ts.x, v_ts.y), min(v_ts.z, v_ts.w)));
+    vec2 high_ts = vec2(max(max(u_ts.x, u_ts.y), max(u_ts.z, u_ts.w)), max(max(v_ts.x, v_ts.y), max(v_ts.z, v_ts.w)));
+    if (!gn_within_view(at.projected, low_ts, high_ts)) {
+        vec4 across;
+        for (int k = 0; k < 4; ++k) {
+            across[k] = float(gn_lit_tap(depth, at, vec2(u_ts[k], v_ts[k])));
+        }
+        return across;
+    }
+#endif
     vec2 last_ts = at.projected.bounds_ts.zw - 0.5 * at.projected.texel_ts;
     vec4 u = floor(clamp(u_ts, at.projected.bounds_ts.x, last_ts.x) / at.projected.texel_ts);
     vec4 v = floor(clamp(v_ts, at.projected.bounds_ts.y, last_ts.y) / at.projected.texel_ts);
     vec4 occluder;
     vec4 own = vec4(0.0);
     for (int k = 0; k < 4; ++k) {
-        occluder[k] = texelFetch(depth, ivec3(u[k], v[k], at.projected.layer), 0).r;
+        occluder[k] = gn_map_texel(depth, at, ivec2(u[k], v[k])).r;
 #ifdef GN_CASTER_IDS
-        own[k] = float(texelFetch(ids, ivec3(u[k], v[k], at.projected.layer), 0).r == float(at.receiver.object));
+        own[k] = float(gn_map_texel(ids, at, ivec2(u[k], v[k])).r == float(at.receiver.object));
 #endif
     }
     vec4 lit = vec4(gn_lit_at(at.projected, (u + 0.5) * at.projected.texel_ts, (v + 0.5) * at.projected.texel_ts, occluder, at.bias));

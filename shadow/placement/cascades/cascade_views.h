@@ -2,8 +2,10 @@
 // Slices of the view and the light views around them, on the CPU.
 #pragma once
 
+#include "shadow/geometry/convex_body.h"
+#include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/cascades/cascades.h"
-#include "shadow/placement/receivers.h"
+#include "shadow/placement/light_views.h"
 
 namespace gn::cascades {
 

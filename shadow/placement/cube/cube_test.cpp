@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/placement/faces.glsl"
-#include "shadow/placement/receivers.h"
+#include "shadow/placement/light_views.h"
+#include "shadow/recipe/guard.h"
+#include "tests/direct_scenes.h"
 #include "tests/warp_scene.h"
 
 #include <algorithm>
@@ -26,7 +28,7 @@ TEST(Cube, EveryDirectionFallsInsideItsFaceWithRoomForTheKernel) {
     const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data()};
     Recipe recipe = load_recipe("pcf,resolution=256,pcf.size=9");
     LightViews views;
-    add_cube_views(views, input, recipe);
+    add_cube_views(views, input, guard_of(recipe, {}, {}), recipe.resolution);
     ASSERT_EQ(views.views.size(), 6U);
 
     const double reach = 2.0 * static_cast<double>(guard_of(recipe, {}, {}).texels) / 256;
@@ -124,6 +126,67 @@ TEST(CubeCoverage, NoSeamUnderAnyKernel) {
             const auto uneven = test::compare(scene, std::string(by_coverage) + kernel);
             EXPECT_EQ(uneven.visibility().values, even.visibility().values) << scene << kernel;
         }
+    }
+}
+
+/// Root mean square difference of two pictures of V: of receivers within `share` of a face's edge, and of all others.
+struct Differences {
+    double at_edges = 0, elsewhere = 0;
+    int edges = 0;
+};
+Differences differences(const test::Comparison& a, const test::Comparison& b, float share) {
+    Differences found;
+    int others = 0;
+    const vec3 light_ws(a.scene.lights[0].shape.position_ws);
+    for (std::size_t i = 0; i < a.truth.counted.size(); ++i) {
+        if (a.truth.counted[i] == 0) {
+            continue;
+        }
+        const vec3 d = glm::abs(vec3(a.frame.samples.position_ws[i]) - light_ws);
+        const float most = std::max({d.x, d.y, d.z});
+        const float second = d.x + d.y + d.z - most - std::min({d.x, d.y, d.z});
+        const double change = a.visibility().values[i] - b.visibility().values[i];
+        const bool edge = second > (1 - share) * most;
+        (edge ? found.at_edges : found.elsewhere) += change * change;
+        ++(edge ? found.edges : others);
+    }
+    found.at_edges = std::sqrt(found.at_edges / std::max(found.edges, 1));
+    found.elsewhere = std::sqrt(found.elsewhere / std::max(others, 1));
+    return found;
+}
+
+/// A lamp over a ground, and bars under it whose shadows cross the edges of the face that looks down.
+Scene bars_under_a_lamp() {
+    by_hand::SceneBuilder builder;
+    builder.ground(6);
+    for (int i = 0; i < 8; ++i) {
+        const float x = -2.1F + 0.6F * static_cast<float>(i);
+        builder.box({x, 0.2F, -3}, {x + 0.2F, 0.4F, 3});
+    }
+    builder.light(by_hand::point({0, 2, 0}));
+    builder.camera({0, 6, 5}, {0, 0, 0}, 0.1F, 50);
+    return builder.scene();
+}
+
+/// Faces of exactly a quarter turn have finer texels than those with a border, so that shadows differ a little everywhere.
+/// Where kernels cross to the next face they differ no more than that.
+TEST(CubeEdges, AKernelThatCrossesSeesWhatABorderWouldShow) {
+    for (const char* recipe : {"pcf,pcf.kernel=gaussian,pcf.size=9", "pcf,pcf.kernel=vogel,pcf.taps=16,pcf.radius=5",
+                               "vsm,filtered.footprint=radius,filtered.radius=7,vsm.blur=none"}) {
+        const std::string text = std::string(recipe) + ",placement=cube,resolution=512";
+        const auto border = test::compare(bars_under_a_lamp(), text);
+        const auto crossing = test::compare(bars_under_a_lamp(), text + ",cube.edges=cross");
+        const Differences d = differences(border, crossing, 2 * 6.0F / 512);
+        EXPECT_GT(d.edges, 200);
+        EXPECT_LT(d.at_edges, 2 * d.elsewhere) << recipe << ", edges " << d.edges;
+    }
+}
+
+TEST(CubeEdges, NothingIsDarkenedWhereNothingCasts) {
+    for (const char* kernel : {"pcf.kernel=gaussian,pcf.size=5", "pcf.kernel=vogel,pcf.taps=16,pcf.radius_world=0.5"}) {
+        const auto c = test::compare("tilted:light=point,angle=60",
+                                     std::string("pcf,placement=cube,cube.edges=cross,resolution=256,") + kernel);
+        EXPECT_LT(c.errors.acne.value_or(1), 1e-5) << kernel;
     }
 }
 
