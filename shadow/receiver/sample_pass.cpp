@@ -112,6 +112,9 @@ std::string gbuffer_defines(const Device& device) {
 
 ivec4 lit_pixels(const FrameInput& input) {
     const ivec2 size(static_cast<int>(input.samples.width), static_cast<int>(input.samples.height));
+    if (input.light().shape.kind == GN_LIGHT_DIRECTIONAL) {
+        return {0, 0, size.x, size.y};
+    }
     dvec2 low(1e300);
     dvec2 high(-1e300);
     for (const dvec3& p_ws : potential_receivers(input).vertices()) {
