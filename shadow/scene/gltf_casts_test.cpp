@@ -153,6 +153,29 @@ TEST(GltfSpecularGlossiness, DiffuseIsTheColourAndTheMask) {
     EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
 }
 
+// A strip of right triangles with sides of a hundredth, from x on.
+GltfText strip(float x) {
+    GltfText gltf;
+    std::vector<float> xyz;
+    for (int i = 0; i < 64; ++i) {
+        for (const vec2 corner : {vec2(0, 0), vec2(0.01F, 0), vec2(0, 0.01F)}) {
+            xyz.insert(xyz.end(), {x + 0.02F * static_cast<float>(i) + corner.x, corner.y, 0});
+        }
+    }
+    gltf.add_points(xyz);
+    return gltf;
+}
+
+TEST(GltfPositions, FeaturesFinerThanTheFilesFloatsAreSaid) {
+    // At 5e5 floats stand 1/32 apart: a centimetre is not there. A node that moves a mesh by as much does no harm.
+    const Scene coarse = load(strip(5e5F));
+    EXPECT_TRUE(has_note(coarse, "steps of 0.0312"));
+    GltfText moved = strip(0);
+    moved.nodes = R"({"mesh":0,"translation":[500000,0,0]})";
+    EXPECT_FALSE(has_note(load(moved), "steps of"));
+    EXPECT_FALSE(has_note(load(strip(500)), "steps of"));
+}
+
 TEST(GltfExtensions, WhatIsNotUnderstoodIsSaidByName) {
     GltfText gltf = one_triangle();
     gltf.more = R"("extensionsUsed":["KHR_materials_ior","KHR_xmp_json_ld","ACME_holes","KHR_texture_basisu"],)";

@@ -66,6 +66,8 @@ TEST(GltfWebp, DamagedOnesAreSaidAndTheOtherPictureIsTaken) {
     const Scene scene = load_scene(folder.write("b.gltf", both.text()));
     EXPECT_EQ(scene.textures.size(), 1U);
     EXPECT_TRUE(has_note(scene, "leaf.webp"));
+    EXPECT_TRUE(has_note(scene, "'leaf.png' is taken instead"));
+    EXPECT_FALSE(has_note(scene, "plain colour"));
     EXPECT_FALSE(has_note(scene, "lost its mask"));
 }
 
