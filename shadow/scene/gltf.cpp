@@ -154,6 +154,16 @@ std::optional<Joints> rest_joints(File& file, int skin_index, const std::vector<
 
 namespace {
 
+void note_coarse(File& file) {
+    if (file.coarse_triangles > 0) {
+        add_note(file.notes,
+                 fmt::format("{} triangle{} edges of less than four steps of the floats that the file holds positions "
+                             "in (steps of {:.3g}): what shape they had is lost in the file; store the mesh near zero "
+                             "and let its node move it.",
+                             file.coarse_triangles, file.coarse_triangles == 1 ? " has" : "s have", file.coarse_step));
+    }
+}
+
 void note_left_out(File& file) {
     if (file.data.scenes.size() > 1) {
         add_note(file.notes, fmt::format("The file holds {} scenes; the {} is shown.", file.data.scenes.size(),
@@ -195,6 +205,7 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
             model.cameras.push_back(std::move(*camera));
         }
     }
+    note_coarse(file);
     for (std::string& sentence : file.notes) {
         add_note(model.notes, std::move(sentence));
     }

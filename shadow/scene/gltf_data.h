@@ -22,6 +22,8 @@ struct File {
     std::map<int, std::vector<unsigned char>> unpacked_views;  ///< what compressed buffer views hold
     std::vector<std::string> notes;
     std::size_t triangles_decoded = 0;  ///< of all primitives so far, before instancing
+    std::size_t coarse_triangles = 0;   ///< of these, as large as few steps of the floats that hold their positions
+    double coarse_step = 0;             ///< the largest of these steps
 };
 
 /// Throws Error for what is no JSON, for nesting or a number of values that only an attack has, and for indices,

@@ -68,9 +68,11 @@ int Pictures::texture(int texture_index) {
     for (const int image : sources(texture_index)) {
         const int index = texture(texture_index, image);
         if (index >= 0) {
+            say_failures(fmt::format("'{}' is taken instead", shown_name(image)));
             return index;
         }
     }
+    say_failures("the surface keeps its plain colour");
     return -1;
 }
 
@@ -118,9 +120,11 @@ vec2 Pictures::mean_green_blue(int texture_index) {
             }
             const double whole = 255.0 * static_cast<double>(image->rgba.size() / 4);
             means_[source] = vec2(static_cast<double>(green) / whole, static_cast<double>(blue) / whole);
+            say_failures(fmt::format("'{}' is taken instead", shown_name(source)));
             return means_[source];
         }
     }
+    say_failures("the surface keeps its plain colour");
     return vec2(1.0F);
 }
 
@@ -160,9 +164,16 @@ std::optional<Image8> Pictures::decode(int image) {
         return decoded;
     } catch (const Error& problem) {
         broken_[image] = true;
-        add_note(file_.notes, fmt::format("{}; the surface keeps its plain colour.", problem.what()));
+        failures_.emplace_back(problem.what());
         return std::nullopt;
     }
+}
+
+void Pictures::say_failures(const std::string& instead) {
+    for (const std::string& failure : failures_) {
+        add_note(file_.notes, fmt::format("{}; {}.", failure, instead));
+    }
+    failures_.clear();
 }
 
 }  // namespace gn::gltf

@@ -23,12 +23,14 @@ class Pictures {
     [[nodiscard]] std::string shown_name(int image) const;
     [[nodiscard]] std::span<const std::byte> bytes_of(int image) const;
     std::optional<Image8> decode(int image);
+    void say_failures(const std::string& instead);
 
     File& file_;
     Model& model_;
     std::map<std::array<int, 3>, int> textures_;
     std::map<int, vec2> means_;
     std::map<int, bool> broken_;
+    std::vector<std::string> failures_;  ///< not said yet
     std::size_t pixels_ = 0;
 };
 
