@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/rig.h"
+#include "tests/lookup_by_hand.h"
 
 namespace gn {
 namespace {
@@ -19,6 +19,24 @@ TEST(Hard, MismatchHalvesAsTheResolutionDoubles) {
         before = mismatch;
     }
     EXPECT_GT(before, 0);
+}
+
+TEST(Hard, ComparesWithTheTexelWhoseMiddleIsNearest) {
+    // Few texels, so that the next one over is seen.
+    const Scene scene = load_scene("contact");
+    const Recipe recipe = load_recipe("hard,resolution=64,placement=single");
+    const std::vector<float> nearest = test::visibility_by_hand(scene, recipe, R"(
+    vec2 p = at.projected.uv_ts / at.projected.texel_ts;
+    ivec2 best = ivec2(0);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            best = distance(vec2(x, y) + 0.5, p) < distance(vec2(best) + 0.5, p) ? ivec2(x, y) : best;
+        }
+    }
+    return lit(best) ? 1.0 : 0.0;)",
+                                                                48);
+    EXPECT_EQ(test::visibility_of(scene, recipe, 48), nearest);
+    EXPECT_GT(std::count(nearest.begin(), nearest.end(), 0.0F), 48);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "shadow/lookup/pcf/pcf.glsl"
 
 #include "shadow/lookup/poisson.h"
-#include "tests/rig.h"
+#include "tests/lookup_by_hand.h"
 
 namespace gn {
 namespace {
@@ -170,6 +170,20 @@ TEST(Pcf, SpiralFillsTheDiscEvenly) {
     EXPECT_LT(error(1024), error(16));
 }
 
+TEST(Pcf, PointsOfTheSpiralKeepApart) {
+    // [Vog79] By the golden angle no point comes nearer to another than 1.546 / sqrt(n), whatever n. Other angles make spokes:
+    // 2 radians, nearly 7/22 of a turn, 0.76; 2.39 radians 1.26.
+    for (const int n : {64, 256}) {
+        float nearest = 2;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < i; ++j) {
+                nearest = std::min(nearest, glm::distance(gn_pcf_vogel(i, n, 0.3F), gn_pcf_vogel(j, n, 0.3F)));
+            }
+        }
+        EXPECT_GT(nearest * std::sqrt(static_cast<float>(n)), 1.54F) << n;
+    }
+}
+
 TEST(Poisson, PointsKeepTheirSpacingAndFillTheDisc) {
     for (const int count : {1, 4, 16, 25, 64, 128}) {
         const PoissonSet set = poisson_disc(count, 5);
@@ -288,6 +302,75 @@ TEST(PcfRendered, TurnedFootprintsAreBoundedByGridsAndFilledByDiscs) {
         EXPECT_LT(worst, 0.05 + 3.0 / 128) << turn;
         EXPECT_GE(crossed, 24);
     }
+}
+
+/// The largest difference of V between two pictures, and how many pixels are neither lit nor dark in the second.
+std::pair<float, int> worst_between(const std::vector<float>& a, const std::vector<float>& b) {
+    float worst = 0;
+    int between = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        worst = std::max(worst, std::abs(a[i] - b[i]));
+        between += b[i] > 0.01F && b[i] < 0.99F ? 1 : 0;
+    }
+    return {worst, between};
+}
+
+TEST(PcfRendered, GridsAverageTheComparisonsUnderTheirBox) {
+    // A box of n texels around the receiver, texel by texel; n x n whole ones around the middle of the receiver's own.
+    const Scene scene = load_scene("contact");  // with edges along the map's axes and across them
+    const auto body = [](int size, bool whole) {
+        return fmt::format(R"(
+    vec2 p = at.projected.uv_ts / at.projected.texel_ts;
+    vec2 middle = {} ? floor(p) + 0.5 : p;
+    float sum = 0.0;
+    for (int y = -4; y <= 4; ++y) {{
+        for (int x = -4; x <= 4; ++x) {{
+            ivec2 texel = ivec2(floor(p)) + ivec2(x, y);
+            vec2 apart = abs(vec2(texel) + 0.5 - middle);
+            vec2 covered = clamp({:.1f} + 0.5 - apart, 0.0, 1.0);
+            sum += lit(texel) ? covered.x * covered.y : 0.0;
+        }}
+    }}
+    return sum / {:.1f};)",
+                           whole, 0.5 * size, static_cast<double>(size * size));
+    };
+    for (const auto& [kernel, size] :
+         {std::pair("bilinear-nxn", 1), std::pair("bilinear-nxn", 4), std::pair("nxn", 3)}) {
+        const Recipe recipe =
+            load_recipe(fmt::format("pcf,resolution=128,placement=single,pcf.size={},pcf.kernel={}", size, kernel));
+        const auto by_hand = test::visibility_by_hand(scene, recipe, body(size, kernel == std::string("nxn")), 40);
+        const auto [worst, between] = worst_between(test::visibility_of(scene, recipe, 40), by_hand);
+        // Both round differently: positions of some 100 texels have steps of 1e-5.
+        EXPECT_LT(worst, 1e-4) << kernel << " " << size;
+        EXPECT_GE(between, 40) << kernel << " " << size;
+    }
+}
+
+TEST(PcfRendered, TurnedDiscsAreTheShareOfTheirDisc) {
+    // A lattice of points within the radius, each with the texel that it falls into.
+    constexpr int taps = 128;
+    const std::string body = R"(
+    vec2 p = at.projected.uv_ts / at.projected.texel_ts;
+    float sum = 0.0;
+    float count = 0.0;
+    for (int y = -20; y <= 20; ++y) {
+        for (int x = -20; x <= 20; ++x) {
+            vec2 d = vec2(x, y) * 0.3;
+            if (length(d) <= 6.0) {
+                sum += lit(ivec2(floor(p + d))) ? 1.0 : 0.0;
+                count += 1.0;
+            }
+        }
+    }
+    return sum / count;)";
+    const Scene scene = load_scene("contact");  // with edges along the map's axes and across them
+    const Recipe recipe =
+        load_recipe(fmt::format("pcf,resolution=256,placement=single,pcf.kernel=vogel,pcf.taps={},pcf.radius=6", taps));
+    const auto by_hand = test::visibility_by_hand(scene, recipe, body, 40);
+    const auto [worst, between] = worst_between(test::visibility_of(scene, recipe, 40), by_hand);
+    // An edge passes some twelve taps' cells and misjudges half a cell of each, of either sign: 4.5 taps were measured.
+    EXPECT_LT(worst, 6.0 / taps);
+    EXPECT_GE(between, 150);
 }
 
 TEST(PcfRendered, IdsNeedNoBiasOnAPlane) {

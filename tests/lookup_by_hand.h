@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// A lookup that a test spells out texel by texel, run in the place of a recipe's own over the very same map.
+#pragma once
+
+#include "tests/rig.h"
+
+namespace gn::test {
+
+/// V of the first light at every pixel of a square picture, one sample a pixel.
+inline std::vector<float> visibility_of(const Scene& scene, const Recipe& recipe, uint pixels) {
+    const ValidationGuard guard;
+    SceneGpu gpu = upload_scene(device(), scene);
+    const FrameResult frame =
+        render_frame(device(), gpu, scene.camera(""), recipe,
+                     {.width = pixels, .height = pixels, .repeat = 1, .only_light = 0, .picture = false});
+    EXPECT_EQ(frame.refused.front(), "");
+    return frame.visibility.front().values;
+}
+
+/// The same by a lookup over depth whose GLSL function's body is given; it has `at`, `depth` and
+/// `lit(texel)`, which compares with one texel at its middle. The guard stays the recipe's own, and so does the map.
+inline std::vector<float> visibility_by_hand(const Scene& scene, Recipe recipe, const std::string& body, uint pixels) {
+    static std::string text;
+    text = fmt::format(
+        "bool gn_by_hand_lit(GnLookup at, sampler2DArray depth, ivec2 texel) {{\n"
+        "    vec2 middle_ts = (vec2(texel) + 0.5) * at.projected.texel_ts;\n"
+        "    float occluder = texelFetch(depth, ivec3(texel, at.projected.layer), 0).r;\n"
+        "    return gn_depth_at(at.projected, middle_ts, at.bias) <= occluder;\n}}\n"
+        "#define lit(texel) gn_by_hand_lit(at, depth, texel)\n"
+        "float gn_by_hand_visibility(GnLookup at, sampler2DArray depth) {{\n{}\n}}\n",
+        body);
+    Part by_hand;
+    by_hand.id = "by-hand";
+    by_hand.stage = Stage::lookup;
+    by_hand.needs = {"depth"};
+    by_hand.guard = recipe.lookup->guard;
+    by_hand.prologue = [](const Recipe&) { return text; };
+    recipe.lookup = &by_hand;
+    return visibility_of(scene, recipe, pixels);
+}
+
+}  // namespace gn::test
