@@ -22,6 +22,7 @@ inline std::vector<float> visibility_of(const Scene& scene, const Recipe& recipe
 inline std::vector<float> visibility_by_hand(const Scene& scene, Recipe recipe, const std::string& body, uint pixels) {
     static std::string text;
     text = fmt::format(
+        "#include \"shadow/receiver/map_access.glsl\"\n"
         "bool gn_by_hand_lit(GnLookup at, sampler2DArray depth, ivec2 texel) {{\n"
         "    vec2 middle_ts = (vec2(texel) + 0.5) * at.projected.texel_ts;\n"
         "    float occluder = texelFetch(depth, ivec3(texel, at.projected.layer), 0).r;\n"

@@ -69,6 +69,8 @@ TEST(FitOrthographic, HullTouchesAllFourBordersAndNearAndFar) {
         const vec4 p_cs = view.cs_from_ws * vec4(vec3(p), 1);
         low = glm::min(low, dvec3(vec3(p_cs)));
         high = glm::max(high, dvec3(vec3(p_cs)));
+        // What lookups compare is what the map is drawn with.
+        EXPECT_NEAR(glm::dot(view.depth_from_ws, vec4(vec3(p), 1)), p_cs.z, 1e-6);
     }
     const double texel = 2.0 / 512;
     EXPECT_NEAR(low.x, -1, texel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Laws of projection and bias, on the CPU from the very source that shaders include.
-#include "shadow/receiver/receiver.glsl"
+#include "shadow/receiver/map_access.glsl"
 
 #include "shadow/geometry/convex_body.h"
 #include "shadow/placement/light_views.h"
@@ -125,6 +125,22 @@ TEST_P(Projection, BiasMovesTowardsTheLightByTexelsAndMetres) {
     const vec3 axis = glm::normalize(vec3(view.depth_from_ws));
     const float expected = (2 * plain.texel_ws + 0.01F) * std::abs(glm::dot(axis, n_ws));
     EXPECT_NEAR((plain.depth - biased.depth) * view.metres_per_depth, expected, 1e-4F);
+}
+
+TEST_P(Projection, ATapsWayStaysInThePlaneAndEndsAtTheTap) {
+    const GnLightView& view = GetParam();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    for (int i = 0; i < 100; ++i) {
+        const vec3 n_ws = glm::normalize(vec3(uniform(random), 1.2F, uniform(random)));
+        const auto receiver = receiver_at(vec3(uniform(random), 1 + uniform(random), uniform(random)), n_ws);
+        const vec2 d_ts(0.1F * uniform(random), 0.1F * uniform(random));
+        const vec3 way_ws = glsl::gn_way_ws(receiver, view, d_ts);
+        EXPECT_NEAR(glm::dot(way_ws, n_ws), 0, 1e-5);  // metres, of some
+        const vec2 from_ts = glsl::gn_project(receiver, view, no_bias).uv_ts;
+        const vec2 to_ts = glsl::gn_project(receiver_at(receiver.p_ws + way_ws, n_ws), view, no_bias).uv_ts;
+        EXPECT_LT(glm::distance(from_ts + d_ts, to_ts), 1e-5F) << i;  // a hundredth of a texel
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, Projection, ::testing::Values(sun_view(), spot_view()),

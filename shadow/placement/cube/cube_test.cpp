@@ -3,6 +3,7 @@
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
 #include "tests/direct_scenes.h"
+#include "tests/lookup_by_hand.h"
 #include "tests/warp_scene.h"
 
 #include <algorithm>
@@ -180,6 +181,33 @@ TEST(CubeEdges, AKernelThatCrossesSeesWhatABorderWouldShow) {
         EXPECT_GT(d.edges, 200);
         EXPECT_LT(d.at_edges, 2 * d.elsewhere) << recipe << ", edges " << d.edges;
     }
+}
+
+TEST(CubeEdges, EveryTapBeyondAFaceIsFoundInAnother) {
+    // A ground under a lamp lies behind five faces; its plane meets every ray that goes down.
+    by_hand::SceneBuilder builder;
+    builder.ground(6);
+    builder.light(by_hand::point({0, 2, 0}));
+    builder.camera({0, 6, 5}, {0, 0, 0}, 0.1F, 50);
+    const Scene scene = builder.scene();
+    const auto found =
+        test::visibility_by_hand(scene, load_recipe("pcf,placement=cube,cube.edges=cross,resolution=64"), R"(
+    float found = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        vec2 d_ts = at.projected.texel_ts * vec2(k == 0 ? 6 : k == 1 ? -6 : 0, k == 2 ? 6 : k == 3 ? -6 : 0);
+        vec2 tap_ts = at.projected.uv_ts + d_ts;
+        if (gn_way_ws(at.receiver, at.view, d_ts) != vec3(0.0) && !gn_within_view(at.projected, tap_ts, tap_ts)) {
+            GnLookup tap = gn_at_tap(at, tap_ts);
+            if (tap.projected.layer == at.projected.layer) {
+                return 0.5;
+            }
+            found = 1.0;
+        }
+    }
+    return found;)",
+                                 64);
+    EXPECT_EQ(std::count(found.begin(), found.end(), 0.5F), 0);
+    EXPECT_GT(std::count(found.begin(), found.end(), 1.0F), 400);
 }
 
 TEST(CubeEdges, NothingIsDarkenedWhereNothingCasts) {
