@@ -258,6 +258,14 @@ TEST(DefaultBias, LeavesTiltedPlanesWithoutAcneTo85Degrees) {
     }
 }
 
+TEST(DefaultBias, MovesWhatFacesTheLightByHalfATexel) {
+    // A plane that faces the light leaves nothing for the other biases to do: no sine for the offset along the normal, no
+    // side that falls away for the cone. What bends within half a texel is cleared (docs/bias.md, creases).
+    const auto receiver = receiver_below(10);
+    const float half_ws = 0.5F * glsl::gn_project(receiver, spot_view(), no_bias).texel_ws;
+    EXPECT_LT(glm::distance(shift(receiver, load_recipe("hard").bias), vec3(0, half_ws, 0)), 2e-3F * half_ws);
+}
+
 TEST(DefaultBias, WithoutItAcneAppears) {
     const auto c = test::compare(
         "tilted:angle=60",
