@@ -131,6 +131,21 @@ TEST(Lvsm, EmptySplitTeleportsIntoTheHeaviestCluster) {
     EXPECT_NEAR(mirrored.at[3], 0.98, 2e-3);
 }
 
+TEST(Lvsm, TeleportedSplitsStandADeviationToEitherSideOfTheMeanInOrder) {
+    // Mean 0.108 and deviation 0.1024 of the peaks of the test above; splits begin at 1/4, 1/2, 3/4.
+    constexpr double bin = 1.0 / GN_LVSM_BINS;
+    set_histogram({{0.02F, 4}, {0.1F, 4}, {0.3F, 2}});
+    const GnLloydSplits splits = gn_lloyd_teleport(gn_lloyd_uniform(4), 4);
+    EXPECT_NEAR(splits.at[1], 0.108 - 0.1024, bin);
+    EXPECT_NEAR(splits.at[2], 0.108 + 0.1024, bin);
+    EXPECT_EQ(splits.at[3], 0.75F);
+    set_histogram({{0.98F, 4}, {0.9F, 4}, {0.7F, 2}});
+    const GnLloydSplits mirrored = gn_lloyd_teleport(gn_lloyd_uniform(4), 4);
+    EXPECT_EQ(mirrored.at[1], 0.5F);
+    EXPECT_NEAR(mirrored.at[2], 0.892 - 0.1024, bin);
+    EXPECT_NEAR(mirrored.at[3], 0.892 + 0.1024, bin);
+}
+
 TEST(Lvsm, RelaxationKeepsTheOrderAndNeverGrowsTheError) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(0, 0.999F);

@@ -46,6 +46,15 @@ TEST(Msm, EveryQuantizedComponentFillsItsFormat) {
     }
 }
 
+TEST(Msm, BiasedMomentsAreThoseOfAMixture) {
+    // [PK15] eq. 5: what was there gives up a share to masses 0.315, 0.37, 0.315 at depths 0, 1/2, 1.
+    for (const float amount : {0.0F, 0.01F, 0.4F, 1.0F}) {
+        const vec4 masses = 0.315F * (gn_msm_moments(0) + gn_msm_moments(1)) + 0.37F * gn_msm_moments(0.5F);
+        const vec4 b = two_planes(0.2F, 0.9F, 0.3F);
+        EXPECT_LT(glm::distance(gn_msm_biased(b, amount), (1 - amount) * b + amount * masses), 1e-6F) << amount;
+    }
+}
+
 TEST(Msm, TendsToTheExactShareOnTwoPlanes) {
     // Moments of two depths are on the border of all moments: only one distribution has them, so the bound is the share
     // itself. The bias moves them inside; with it the error goes.
