@@ -8,9 +8,9 @@
 namespace gn {
 namespace {
 
-// A fragment pass: rectangles of it are skipped whole, and software drivers run it faster than a dispatch.
 constexpr const char* main_text = R"(
-layout(location = 0) out float out_visibility;
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant) uniform Push { ivec2 first_pixel; };
 
 float visibility_in(GnReceiver receiver, int index) {
     GnLookup at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);
@@ -18,7 +18,10 @@ float visibility_in(GnReceiver receiver, int index) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 pixel = first_pixel + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
     float v = 0.0;
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
@@ -32,7 +35,7 @@ void main() {
             v = mix(v, visibility_in(receiver, choice.second), choice.weight);
         }
     }
-    out_visibility = v;
+    imageStore(visibility, pixel, vec4(v));
 }
 )";
 
@@ -105,8 +108,8 @@ ShaderInputs inputs_of(const FrameInput& input, const Recipe& recipe, const Ligh
     return inputs;
 }
 
-RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map,
-                          const ShaderInputs& inputs) {
+ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map,
+                           const ShaderInputs& inputs) {
     const Part& placement = *views.part;
     const Part& lookup = *recipe.lookup;
     std::string text = expect_text(input.device) + receiver_defines(recipe, views) +
@@ -122,10 +125,8 @@ RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const L
     text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
     text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
     text += sample_functions(input.device, placement) + calls(recipe, map) + main_text;
-    RasterDesc desc = fullscreen(
-        {ShaderKind::fragment, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text});
-    desc.constants = lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{};
-    return desc;
+    return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text},
+            lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
 }
 
 }  // namespace
@@ -137,21 +138,26 @@ TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples) {
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     const Visibility result{create_visibility(input.graph, input.samples)};
-    const ShaderInputs inputs = inputs_of(input, recipe, views, map);
+    const ViewSamples& samples = input.samples;
+    const ivec4 lit = lit_pixels(input);
+
+    // No sample counts beyond the pixels that the light can reach.
+    if (lit != ivec4(0, 0, samples.width, samples.height)) {
+        input.graph.add_pass(
+            "lookup: dark", [&](PassBuilder& pass) { pass.color(result.image, Load::clear); }, [](Recorder&) {});
+    }
+    ShaderInputs inputs = inputs_of(input, recipe, views, map);
+    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
     input.graph.add_pass(
-        "lookup",
-        [&](PassBuilder& pass) {
-            inputs.declare(pass);
-            pass.color(result.image, Load::clear);
-        },
-        [inputs, shader = resolve_shader(input, recipe, views, map, inputs), lit = lit_pixels(input)](Recorder& r) {
+        "lookup", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader = resolve_shader(input, recipe, views, map, inputs), lit](Recorder& r) {
             if (lit.z == 0 || lit.w == 0) {
                 return;
             }
             r.bind(shader);
             inputs.set(r);
-            r.scissor(lit.x, lit.y, static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));
-            r.draw(3);
+            r.push_value(ivec2(lit));
+            r.dispatch_pixels(static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));
         });
     return result;
 }
