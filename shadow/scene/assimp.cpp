@@ -224,25 +224,19 @@ void place_nodes(const aiNode* root, Model& model) {
     }
 }
 
-void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many) {
-    if (count > 0) {
-        add_note(notes, fmt::format("{} {}.", count, count == 1 ? one : many));
-    }
-}
-
 void note_left_out(const LeftOut& left_out, const aiScene& data, std::vector<std::string>& notes) {
-    note_count(notes, left_out.faces, "face with vertices that are not there is dropped",
-               "faces with vertices that are not there are dropped");
-    note_count(notes, left_out.lines_and_points, "line or point is skipped: only faces cast shadows",
-               "lines and points are skipped: only faces cast shadows");
-    note_count(notes, left_out.skinned, "mesh hangs on bones and stands as it was bound",
-               "meshes hang on bones and stand as they were bound");
-    note_count(notes, left_out.morphed, "mesh has other shapes, which are not read",
-               "meshes have other shapes, which are not read");
-    note_count(notes, left_out.colored, "mesh has colours at its vertices, which are not read",
-               "meshes have colours at their vertices, which are not read");
-    note_count(notes, data.mNumAnimations, "animation is not played: everything stands as at rest",
-               "animations are not played: everything stands as at rest");
+    note_count(notes, left_out.faces, "1 face with vertices that are not there is dropped.",
+               "{} faces with vertices that are not there are dropped.");
+    note_count(notes, left_out.lines_and_points, "1 line or point is skipped: only faces cast shadows.",
+               "{} lines and points are skipped: only faces cast shadows.");
+    note_count(notes, left_out.skinned, "1 mesh hangs on bones and stands as it was bound.",
+               "{} meshes hang on bones and stand as they were bound.");
+    note_count(notes, left_out.morphed, "1 mesh has other shapes, which are not read.",
+               "{} meshes have other shapes, which are not read.");
+    note_count(notes, left_out.colored, "1 mesh has colours at its vertices, which are not read.",
+               "{} meshes have colours at their vertices, which are not read.");
+    note_count(notes, data.mNumAnimations, "1 animation is not played: everything stands as at rest.",
+               "{} animations are not played: everything stands as at rest.");
 }
 
 }  // namespace

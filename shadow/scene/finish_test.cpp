@@ -8,18 +8,6 @@ namespace {
 
 using namespace testing_scene;
 
-Scene cube(vec3 centre, float half) {
-    Scene scene;
-    scene.name = "cube";
-    for (unsigned i = 0; i < 8; ++i) {
-        const vec3 sign((i & 1U) != 0U ? 1 : -1, (i & 2U) != 0U ? 1 : -1, (i & 4U) != 0U ? 1 : -1);
-        scene.positions_ws.push_back(centre + half * sign);
-    }
-    scene.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return scene;
-}
-
 TEST(Finish, AnEmptySceneIsLegal) {
     Scene scene;
     finish_scene(scene);

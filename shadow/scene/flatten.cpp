@@ -17,6 +17,12 @@ void add_note(std::vector<std::string>& notes, std::string note) {
     }
 }
 
+void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many) {
+    if (count > 0) {
+        add_note(notes, count == 1 ? one : fmt::format(fmt::runtime(many), count));
+    }
+}
+
 void note_lost_mask(std::vector<std::string>& notes, const std::string& material) {
     add_note(notes, fmt::format("Material '{}' has lost its mask: where it had holes it is solid.", material));
 }

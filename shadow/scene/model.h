@@ -60,6 +60,8 @@ inline constexpr std::size_t max_texture_pixels = std::size_t{1} << 29;
 
 /// Adds a note; after 200 notes one last sentence says that more were left out.
 void add_note(std::vector<std::string>& notes, std::string note);
+/// Adds the sentence for one thing, or that for `many` with their number in the place of {}; nothing where there is none.
+void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many);
 
 /// Says that a material's holes are filled because their picture is missing.
 void note_lost_mask(std::vector<std::string>& notes, const std::string& material);

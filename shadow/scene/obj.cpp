@@ -273,12 +273,6 @@ class MeshMaker {
     std::size_t dropped_ = 0, triangles_ = 0, missing_uvs_ = 0, missing_normals_ = 0;
 };
 
-void note_count(std::vector<std::string>& notes, std::size_t count, const char* one, const char* many) {
-    if (count > 0) {
-        add_note(notes, count == 1 ? one : fmt::format(fmt::runtime(many), count));
-    }
-}
-
 void note_oddities(const ObjFile& file, const MeshMaker& maker, std::vector<std::string>& notes) {
     note_count(notes, maker.dropped(), "Dropped 1 face with vertices that are not there or fewer than 3 corners.",
                "Dropped {} faces with vertices that are not there or fewer than 3 corners.");
