@@ -46,10 +46,6 @@ gn_suite(part_tests SOURCES ${shadow_tests} ${part_tests} LINK gn_shadow gn_refe
 file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
 gn_suite(app_tests SOURCES ${app_tests} LINK gn_base)
 if(TARGET app_tests)
-  if(GNOMON_SANITIZE)
-    # g++ 12 sees an uninitialized member inside std::regex where the sanitizers are on (GCC bug 105562).
-    target_compile_options(app_tests PRIVATE -Wno-maybe-uninitialized)
-  endif()
   add_dependencies(app_tests gnomon)
   target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
 endif()
