@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gnomon compare and render from outside: the schema, the figures' sense, refusals, resuming, stopping.
 #include "apps/subprocess_test.h"
+#include "base/paths.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -38,8 +39,8 @@ void expect_valid(const json& document) {
     const std::string script =
         "import json, sys, jsonschema; jsonschema.validate(*[json.load(open(p)) for p in sys.argv[1:]])";
     const std::string command = "python3 -W ignore -c '" + script + "' '" + (folder / "document.json") + "' '" +
-                                GNOMON_SOURCE_DIR "/apps/schema/compare.schema.json' > '" + (folder / "said") +
-                                "' 2>&1";
+                                (data_root() / "apps/schema/compare.schema.json").string() + "' > '" +
+                                (folder / "said") + "' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << file_text(folder / "said");
 }
 

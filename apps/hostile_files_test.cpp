@@ -2,6 +2,7 @@
 // Broken and hostile models through `gnomon render`: each ends in a sentence or a picture, as its index wants, within 20 s
 // and 2 GiB.
 #include "apps/subprocess_test.h"
+#include "base/paths.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bad_models = fs::path(GNOMON_SOURCE_DIR).parent_path() / "shared/scenes/bad";
+const fs::path bad_models = data_root().parent_path() / "shared/scenes/bad";
 
 /// What the folder's index wants of a model.
 enum class Wanted { picture, sentence, either };

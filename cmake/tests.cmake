@@ -13,7 +13,7 @@ function(gn_suite name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} gn_options GTest::gtest_main)
   # Reading an absent figure ends the suite, it does not compare rubbish.
-  target_compile_definitions(${name} PRIVATE GNOMON_SOURCE_DIR="${CMAKE_SOURCE_DIR}" _GLIBCXX_ASSERTIONS)
+  target_compile_definitions(${name} PRIVATE _GLIBCXX_ASSERTIONS)
   gn_precompiled(${name} TESTS)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT "${gn_test_environment}")

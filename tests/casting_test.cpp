@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What casts and what receives: by material, by order of the file, by lamp. Every technique and the truth must agree.
+#include "base/paths.h"
 #include "tests/little_gltf.h"
 
 namespace gn {
@@ -176,7 +177,7 @@ TEST(CastingFiles, TomlSaysItForFilesAndForObjects) {
 }
 
 TEST(CastingFiles, LampsInGlassOrInTheirBulbsLightTheRoom) {
-    const auto folder = std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/cases/glass_lampshade";
+    const auto folder = data_root() / "../shared/cases/glass_lampshade";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "the cases are not beside the source tree";
     }

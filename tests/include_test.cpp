@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every portable shader file and every shared header compiles alone inside a bare shader, and may be included twice.
 // Headers on their own as C++ are the target headers_alone.
+#include "base/paths.h"
 #include "gpu/shader.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = GNOMON_SOURCE_DIR;
+const fs::path root = data_root();
 
 std::string text_of(const fs::path& path) {
     std::ostringstream text;

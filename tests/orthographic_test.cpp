@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A camera whose rays run side by side, through every stage: what it sees, and V of recipes against the truth.
+#include "base/paths.h"
 #include "tests/rescaled.h"
 
 #include <filesystem>
@@ -113,7 +114,7 @@ TEST(OrthographicRendered, VolumesAreTheTruth) {
 }
 
 TEST(OrthographicRendered, TheCaseIsItsTruth) {
-    const auto file = std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/cases/orthographic_camera/scene.glb";
+    const auto file = data_root() / "../shared/cases/orthographic_camera/scene.glb";
     if (!std::filesystem::exists(file)) {
         GTEST_SKIP() << "skipped: the folder of cases is not here";
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // COLOR_0 of glTF: its alpha decides what of a masked surface is there, for the eye, for every map and for the truth.
+#include "base/paths.h"
 #include "tests/little_gltf.h"
 
 namespace gn {
@@ -115,7 +116,7 @@ TEST(VertexColor, ColoursTintTheSurface) {
 }
 
 TEST(VertexColorFiles, HalfTheCardCasts) {
-    const auto folder = std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/cases/vertex_alpha_mask";
+    const auto folder = data_root() / "../shared/cases/vertex_alpha_mask";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "the cases are not beside the source tree";
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Small inputs that once gave a wrong picture, where they lie beside the source tree: `scene` holds the same triangles as
 // `expected`.
+#include "base/paths.h"
 #include "shadow/scene/casting.h"
 #include "shadow/scene/testing.h"
 
@@ -12,7 +13,7 @@ namespace {
 using namespace testing_scene;
 
 std::filesystem::path cases() {
-    return std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/cases";
+    return data_root() / "../shared/cases";
 }
 
 // Corners of all triangles, sorted: neither the order of triangles nor that of vertices matters.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Models made by others, good ones and bad ones, where they lie beside the source tree.
+#include "base/paths.h"
 #include "shadow/scene/testing.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 using namespace testing_scene;
 
 std::filesystem::path scenes() {
-    return std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/scenes";
+    return data_root() / "../shared/scenes";
 }
 
 // Everything that later stages rely on.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which side of a face shows: materials with one side, in the view and for the light; two faces back to back.
+#include "base/paths.h"
 #include "tests/little_gltf.h"
 
 namespace gn {
@@ -159,7 +160,7 @@ TEST(BackToBack, AMapHoldsTheIdOfTheFaceTurnedToTheLight) {
 }
 
 std::filesystem::path cases(const char* folder) {
-    return std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/cases" / folder;
+    return data_root() / "../shared/cases" / folder;
 }
 
 TEST(SidesFiles, DollsHousesAreOpenForTheEyeAndForTheSun) {
