@@ -207,8 +207,9 @@ inline Comparison judge(const Scene& scene, const FrameResult& frame, std::size_
         ++(traced.visibility[i] > 0.5F ? result.lit : result.shadowed);
         if (seen[i] != traced.visibility[i]) {
             if (result.wrong++ == 0) {
-                result.first = fmt::format("pixel {}, {}: V = {}, traced {}, at ({}, {}, {})", i % samples.width,
-                                           i / samples.width, seen[i], traced.visibility[i], p_ws.x, p_ws.y, p_ws.z);
+                result.first =
+                    fmt::format("light {}, pixel {}, {}: V = {}, traced {}, at ({}, {}, {})", light, i % samples.width,
+                                i / samples.width, seen[i], traced.visibility[i], p_ws.x, p_ws.y, p_ws.z);
             }
         }
     }

@@ -108,11 +108,17 @@ const metricColumns = of => metrics.map(metric => ({
   title: metric.name, hint: metric.sentence, best: !['edge', 'against_mean'].includes(metric.name),
   value: row => of(row)[metric.name], show: row => figure(of(row)[metric.name]),
 }));
+// Errors where the light is weak count for little to the eye: the same figures with each sample weighed by its irradiance.
+const weightedColumns = of => ['rmse', 'leak', 'acne'].map(name => ({
+  title: `weighted ${name}`, hint: `${name}, each sample weighed by the light that falls on it where nothing is in the way`, best: true,
+  value: row => (of(row) || {})[name], show: row => figure((of(row) || {})[name]),
+}));
 
 function errorTable(scene, runs) {
   const columns = [
     {title: 'recipe', text: true, value: fullName, show: run => [nameOf(run), run.status === 'ok' ? [' ', shortOf(run)] : [' ', statusOf(run)]].flat(2).filter(Boolean)},
     ...metricColumns(run => run.error),
+    ...weightedColumns(run => run.weighted),
     {title: 'shadow ms', hint: 'Median time of all passes that exist only because of shadows', best: true,
       value: run => run.time_ms.shadow.median, show: run => milliseconds(run.time_ms.shadow.median)},
     {title: 'frame ms', hint: 'Median time of the whole frame', best: true,
@@ -132,6 +138,7 @@ function lightTable(scene, runs) {
     {title: 'samples', hint: 'View samples that count for this light', value: row => row.light.samples,
       show: row => row.light.samples.toLocaleString('en')},
     ...metricColumns(row => row.light.error).filter(column => !['luma_rms', 'flip'].includes(column.title)),
+    ...weightedColumns(row => row.light.weighted),
     {title: 'error map', text: true, value: row => row.light.error.rmse, show: row => row.light.reason
       ? el('div', {class: 'reason'}, row.light.reason)
       : row.light.error_map ? el('a', {href: row.light.error_map}, picture(row.light.error_map, `Signed error of ${fullName(row.run)} for light ${row.light.name}`, scene, 'thumb')) : absent},
@@ -428,7 +435,7 @@ if (data.scenes.length > 1) {
 }
 document.getElementById('scenes').append(overview(), ...data.scenes.map(sceneSection));
 document.getElementById('colophon').append(
-  el('p', {}, 'T is the technique\u2019s visibility, R the reference\u2019s, over the view samples that face the light and lie in its range. A figure without samples is \u2013. The smallest value of a column is green; the bar below a value is its share of the largest.'),
+  el('p', {}, 'T is the technique\u2019s visibility, R the reference\u2019s, over the view samples that face the light and lie in its range. A figure without samples is \u2013. The smallest value of a column is green; the bar below a value is its share of the largest. Weighted figures weigh each sample by the light that falls on it where nothing is in the way.'),
   el('dl', {}, data.metrics.flatMap(metric => [el('dt', {}, metric.name), el('dd', {}, metric.sentence)])),
   el('p', {}, `Gnomon ${data.version}, schema ${data.schema}.`));
 })();

@@ -12,6 +12,7 @@ namespace gn {
 namespace {
 
 constexpr const char* vertex_text = R"(
+#include "shadow/view/project.glsl"
 #include "shadow/view/view.glsl"
 layout(location = 0) in vec3 in_position_ws;
 layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
@@ -24,7 +25,7 @@ layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_color;
 invariant gl_Position;
 void main() {
-    gl_Position = u.view.cs_from_ws * vec4(in_position_ws, 1.0);
+    gl_Position = gn_view_position(u.view.cs_from_ws, vec4(in_position_ws, 1.0));
     out_position_ws = in_position_ws;
     out_normal_ws = normals[gl_VertexIndex];
     out_uv = uvs[gl_VertexIndex];

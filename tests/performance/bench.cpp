@@ -34,11 +34,14 @@ void Bench::print_head() const {
 Timed passes(Bench& bench, std::string scene, Recipe recipe, std::vector<std::string> names, int light) {
     return [&bench, scene = std::move(scene), recipe = std::move(recipe), names = std::move(names), light] {
         SceneGpu& gpu = bench.scene(scene);
-        const FrameResult frame =
-            render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe,
-                         {.width = width, .height = height, .repeat = repeats, .only_light = light, .picture = false});
+        const FrameResult frame = render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe,
+                                               {.width = bench.size().x,
+                                                .height = bench.size().y,
+                                                .repeat = bench.repeats(),
+                                                .only_light = light,
+                                                .picture = false});
         double least = never;
-        for (std::size_t run = 0; run < static_cast<std::size_t>(repeats); ++run) {
+        for (std::size_t run = 0; run < frame.pass_ms.front().size(); ++run) {
             double ms = 0;
             for (std::size_t pass = 0; pass < frame.statistics.passes.size(); ++pass) {
                 ms += named(names, frame.statistics.passes[pass]) ? frame.pass_ms[pass][run] : 0;
@@ -55,7 +58,7 @@ Timed graph_pass(Bench& bench, std::function<void(FrameGraph&)> build, std::stri
         build(graph);
         graph.execute(false);
         double least = never;
-        for (int run = 0; run < repeats; ++run) {
+        for (int run = 0; run < bench.repeats(); ++run) {
             graph.execute(true);
             for (const PassTime& pass : graph.statistics().passes) {
                 least = pass.name == name ? std::min(least, pass.ms) : least;
@@ -89,8 +92,11 @@ void print_over_added(const std::string& what, const Timed& ours, const Timed& w
         least_with = std::min(least_with, with());
         least_without = std::min(least_without, without());
     }
-    std::printf("| %s (%.1f ms over %.1f - %.1f) | %.2f |\n", what.c_str(), least, least_with, least_without,
-                least / (least_with - least_without));
+    // What a shadow adds to a pass is noise where it is a hundredth of it.
+    const double added = least_with - least_without;
+    const std::string ratio = added > 0.01 * least_with ? fmt::format("{:.2f}", least / added) : "within noise";
+    std::printf("| %s (%.3f ms over %.3f - %.3f) | %s |\n", what.c_str(), least, least_with, least_without,
+                ratio.c_str());
     std::fflush(stdout);
 }
 

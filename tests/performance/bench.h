@@ -9,9 +9,8 @@
 
 namespace gn::performance {
 
-inline constexpr uint width = 960, height = 540;
 /// Both sides of a ratio are run this often in turns, so that what else the machine does meets both.
-inline constexpr int rounds = 4, repeats = 4;
+inline constexpr int rounds = 4;
 
 class Bench {
   public:
@@ -19,6 +18,11 @@ class Bench {
     Device& device() { return *device_; }
     SceneGpu& scene(const std::string& name);
     void print_head() const;
+
+    /// Pixels of a picture: a GPU draws small ones within the noise of its clock.
+    [[nodiscard]] uvec2 size() const { return device_->info().cpu ? uvec2(960, 540) : uvec2(3840, 2160); }
+    /// Runs of one side in a turn; a GPU's clock rises while it works.
+    [[nodiscard]] int repeats() const { return device_->info().cpu ? 4 : 40; }
 
   private:
     struct Kept {
@@ -29,7 +33,7 @@ class Bench {
     std::map<std::string, std::unique_ptr<Kept>> scenes_;
 };
 
-/// What is timed: runs it `repeats` times and returns the least time, ms.
+/// What is timed: runs it Bench::repeats() times and returns the least time, ms.
 using Timed = std::function<double()>;
 
 /// Passes of these names of one light's shadow from the scene's first camera; without names all of the shadow's passes.

@@ -114,6 +114,7 @@ void build_forward(Bench& bench, const Peer& peer, Kernel kernel, FrameGraph& gr
     SceneGpu& gpu = bench.scene(peer.scene);
     const Camera& camera = gpu.scene->cameras[0];
     const SceneHandles handles = import_scene(graph, gpu);
+    const uint width = bench.size().x, height = bench.size().y;
     const ViewSamples samples{.width = width, .height = height, .camera = camera};
     const FrameInput input{bench.device(), graph,   *gpu.scene,
                            handles,        samples, &gpu.scene->lights.at(static_cast<std::size_t>(peer.light))};
@@ -155,27 +156,51 @@ void build_forward(Bench& bench, const Peer& peer, Kernel kernel, FrameGraph& gr
         });
 }
 
-/// Reads the view's depth and writes V: what any mask pays.
-void build_floor(Bench& bench, const std::string& scene, FrameGraph& graph) {
+/// Reads the view's depth and writes V, by fragments or by a dispatch as the lookup is: what any mask pays.
+void build_floor(Bench& bench, const std::string& scene, bool dispatched, FrameGraph& graph) {
+    static constexpr const char* fragment = R"(
+layout(binding = 0) uniform sampler2D depth;
+layout(location = 0) out float v;
+void main() { v = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r > 0.0 ? 1.0 : 0.0; }
+)";
+    static constexpr const char* compute = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D depth;
+layout(binding = 1, r32f) uniform writeonly image2D v;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, textureSize(depth, 0)))) {
+        imageStore(v, pixel, vec4(texelFetch(depth, pixel, 0).r > 0.0 ? 1.0 : 0.0));
+    }
+}
+)";
     SceneGpu& gpu = bench.scene(scene);
     const SceneHandles handles = import_scene(graph, gpu);
-    const ViewSamples samples = add_view_samples(graph, gpu, handles, gpu.scene->cameras[0], width, height);
+    const uvec2 size = bench.size();
+    const ViewSamples samples = add_view_samples(graph, gpu, handles, gpu.scene->cameras[0], size.x, size.y);
     const TextureHandle visibility = create_visibility(graph, samples);
     graph.keep(visibility);
     graph.add_pass(
         "floor",
         [&](PassBuilder& pass) {
             pass.sample(samples.depth);
-            pass.color(visibility, Load::discard);
+            if (dispatched) {
+                pass.storage_write(visibility);
+            } else {
+                pass.color(visibility, Load::discard);
+            }
         },
         [=](Recorder& r) {
-            r.bind(fullscreen({ShaderKind::fragment, "floor", R"(
-layout(binding = 0) uniform sampler2D depth;
-layout(location = 0) out float v;
-void main() { v = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r > 0.0 ? 1.0 : 0.0; }
-)"}));
-            r.set("depth", samples.depth);
-            r.draw(3);
+            if (dispatched) {
+                r.bind(ComputeDesc{.shader = {ShaderKind::compute, "floor", compute}});
+                r.set("depth", samples.depth);
+                r.set_storage("v", visibility);
+                r.dispatch_pixels(size.x, size.y);
+            } else {
+                r.bind(fullscreen({ShaderKind::fragment, "floor", fragment}));
+                r.set("depth", samples.depth);
+                r.draw(3);
+            }
         });
 }
 
@@ -205,10 +230,16 @@ void inlined(Bench& bench) {
          Kernel::grid3, Views::cascades});
 
     print_title("over a pass that reads depth and writes V");
-    const Timed floor = graph_pass(
-        bench, [&bench](FrameGraph& graph) { build_floor(bench, "courtyard", graph); }, "floor");
+    const auto floor = [&bench](bool dispatched) {
+        return graph_pass(
+            bench, [&bench, dispatched](FrameGraph& graph) { build_floor(bench, "courtyard", dispatched, graph); },
+            "floor");
+    };
+    const Timed lesser = [by_fragments = floor(false), by_dispatch = floor(true)] {
+        return std::min(by_fragments(), by_dispatch());
+    };
     for (const char* recipe : {"hard,placement=fit", "pcf,placement=fit,pcf.kernel=3x3", "hard,placement=cascades"}) {
-        print_ratio(recipe, passes(bench, "courtyard", load_recipe(recipe), {"lookup"}), floor);
+        print_ratio(recipe, passes(bench, "courtyard", load_recipe(recipe), {"lookup"}), lesser);
     }
 }
 

@@ -23,7 +23,7 @@ void main() { gl_Position = push.cs_from_ws * vec4(in_position_ws, 1.0); }
 
     SceneGpu& gpu = bench.scene("courtyard");
     const SceneHandles handles = import_scene(graph, gpu);
-    const ViewSamples samples = {.width = width, .height = height, .camera = gpu.scene->cameras[0]};
+    const ViewSamples samples = {.width = bench.size().x, .height = bench.size().y, .camera = gpu.scene->cameras[0]};
     const FrameInput input{bench.device(), graph, *gpu.scene, handles, samples, gpu.scene->lights.data()};
     const LightViews views = place_views(input, recipe);
     const TextureHandle target = graph.create(
@@ -54,8 +54,8 @@ Timed along_path(Bench& bench, std::string scene, const std::string& recipe_text
         const std::vector<Camera>& frames = gpu.scene->paths.at(0).frames;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             const FrameResult frame = render_frame(bench.device(), gpu, frames[i], recipe,
-                                                   {.width = width / 4,
-                                                    .height = height / 4,
+                                                   {.width = bench.size().x / 4,
+                                                    .height = bench.size().y / 4,
                                                     .repeat = 1,
                                                     .only_light = 0,
                                                     .picture = false,

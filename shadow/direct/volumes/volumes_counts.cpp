@@ -12,6 +12,7 @@ namespace {
 // turns the fixed clipping off.
 constexpr const char* side_text = R"(
 #include "shadow/direct/volumes/volumes.glsl"
+#include "shadow/view/project.glsl"
 layout(constant_id = 0) const int STRIP = 0;
 layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
@@ -36,7 +37,7 @@ void main() {
     if (STRIP != 0) {
         far_ws = gn_volumes_strip(u.frame, p_ws, gn_volumes_away(p_ws, u.frame.light_ws));
     }
-    gl_Position = u.frame.cs_from_ws * (far ? far_ws : vec4(p_ws, 1.0));
+    gl_Position = gn_view_position(u.frame.cs_from_ws, far ? far_ws : vec4(p_ws, 1.0));
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
 }
 )";
@@ -67,6 +68,7 @@ void main() {
 
 constexpr const char* cap_text = R"(
 #include "shadow/direct/volumes/volumes.glsl"
+#include "shadow/view/project.glsl"
 layout(constant_id = 0) const int MASKED = 0;
 layout(constant_id = 1) const int TURNED = 0;
 layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
@@ -86,7 +88,8 @@ void main() {
     // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
     bool far = corner >= 3u;
     vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
-    gl_Position = u.frame.cs_from_ws * (far ? gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach) : vec4(p_ws, 1.0));
+    vec4 corner_ws = far ? gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach) : vec4(p_ws, 1.0);
+    gl_Position = gn_view_position(u.frame.cs_from_ws, corner_ws);
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
     // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
     // every opaque cap does.

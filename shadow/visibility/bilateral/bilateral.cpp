@@ -37,8 +37,10 @@ void main() {
     // The width of a pixel at the sample.
     float pixel_ws = gn_pixel_growth(u.view, normal.w) * length(u.view.right_ws.xyz);
 
-    // Average what counts for the light, by closeness on screen and in space.
-    float sum = texelFetch(noisy, pixel, 0).r;
+    // Average how much what counts for the light differs from the sample, by closeness on screen and in space: where all is
+    // the same nothing changes, however a device divides.
+    float own = texelFetch(noisy, pixel, 0).r;
+    float sum = 0.0;
     float weights = 1.0;
     for (int i = -u.params.radius; i <= u.params.radius; ++i) {
         ivec2 neighbour = pixel + i * axis;
@@ -52,10 +54,10 @@ void main() {
         }
         float weight = gn_bilateral_spatial(abs(i), u.params.radius) *
                        gn_bilateral_range(position.xyz, normal.xyz, pixel_ws, q.xyz, q_n, u.params);
-        sum += weight * texelFetch(noisy, neighbour, 0).r;
+        sum += weight * (texelFetch(noisy, neighbour, 0).r - own);
         weights += weight;
     }
-    imageStore(filtered, pixel, vec4(gn_unit(sum / weights)));
+    imageStore(filtered, pixel, vec4(gn_unit(own + sum / weights)));
 }
 )";
 
