@@ -7,7 +7,7 @@
 #include "base/shared.h"
 
 vec4 gn_view_position(mat4 cs_from_ws, vec4 p_ws) {
-    precise vec4 p_cs = cs_from_ws[0] * p_ws.x + cs_from_ws[1] * p_ws.y + cs_from_ws[2] * p_ws.z + cs_from_ws[3] * p_ws.w;
+    precise vec4 p_cs = cs_from_ws[3] * p_ws.w + cs_from_ws[2] * p_ws.z + cs_from_ws[1] * p_ws.y + cs_from_ws[0] * p_ws.x;
     return p_cs;
 }
 
