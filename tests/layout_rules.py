@@ -99,6 +99,22 @@ def part_shape(tree):
     return complaints
 
 
+def part_definitions(tree):
+    """Every part's .cpp ends with its one function: `namespace parts`, in it `static const Part part = [] { Part p; p.id = ...`,
+    `p.stage = ...`; helpers stand before it in namespace gn."""
+    complaints = []
+    for stage, folder, files in tree.parts():
+        if f"{folder}.cpp" not in files:
+            continue
+        where = f"shadow/{stage}/{folder}/{folder}.cpp"
+        shape = (rf"\nnamespace (?:gn::)?parts {{\n\nconst Part& {stage}_{folder}\(\) {{\n    static const Part part = \[\] {{\n"
+                 rf'        Part p;\n        p\.id = "{folder.replace("_", "-")}";\n        p\.stage = Stage::{stage};\n')
+        if not re.search(shape, tree.text(where)):
+            complaints.append(f"{where}: define the part as its siblings do: const Part& {stage}_{folder}() in namespace parts, "
+                              "a lambda that fills `Part p`, id and stage first")
+    return complaints
+
+
 # Who may include what: the first row whose prefix fits a file decides.
 LAYERS = (
     ("base/", ("base/",)),
@@ -367,5 +383,5 @@ def mutants(tree):
     return complaints
 
 
-ALL = (part_shape, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
+ALL = (part_shape, part_definitions, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
        keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, recipes, manual_pages, mutants)

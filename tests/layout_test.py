@@ -23,7 +23,10 @@ SPDX = "// SPDX-License-Identifier: MIT\n"
 GOOD = {
     "docs/references.bib": "% SPDX-License-Identifier: MIT\n@article{Wil78,\n}\n",
     "base/error.h": SPDX,
-    "shadow/lookup/soft/soft.cpp": SPDX + '// Based on: Williams. Title. Venue 1978. [Wil78]\npart.citation = "Wil78";\n',
+    "shadow/lookup/soft/soft.cpp": SPDX + '// Based on: Williams. Title. Venue 1978. [Wil78]\n\nnamespace gn::parts {\n\n'
+                                   "const Part& lookup_soft() {\n    static const Part part = [] {\n        Part p;\n"
+                                   '        p.id = "soft";\n        p.stage = Stage::lookup;\n        p.citation = "Wil78";\n'
+                                   "        return p;\n    }();\n    return part;\n}\n\n}\n",
     "shadow/lookup/soft/soft_test.cpp": SPDX + '#include "base/error.h"\n',
     "shadow/lookup/soft/soft.md": "---\ntitle: Soft\nauthors: Williams\nyear: 1978\nkey: Wil78\nstage: lookup\n---\n",
     "shadow/lookup/soft/soft.glsl": SPDX + "#ifndef GN_SOFT_GLSL\n#define GN_SOFT_GLSL\nfloat gn_soft(float x) {\n"
@@ -43,6 +46,7 @@ BREACHES = [
     (rules.part_shape, {"shadow/lookup/soft/notes.txt": "x"}, "neither one of the five"),
     (rules.part_shape, {"shadow/lookup/Soft-2/x.cpp": SPDX}, "lower-case"),
     (rules.part_shape, {f"{PART}.cpp": SPDX + "// Also here: absent.comp (edges)\n"}, "which is not there"),
+    (rules.part_definitions, {f"{PART}.cpp": GOOD[f"{PART}.cpp"].replace("= [] {", "{")}, "as its siblings do"),
     (rules.layering, {"base/a.cpp": SPDX + '#include "gpu/device.h"\n'}, "gpu/device.h"),
     (rules.layering, {"gpu/a.cpp": SPDX + '#include "shadow/recipe/part.h"\n'}, "shadow/recipe/part.h"),
     (rules.layering, {"shadow/scene/a.cpp": SPDX + '#include "gpu/device.h"\n'}, "gpu/device.h"),

@@ -11,8 +11,7 @@
 #include "shadow/recipe/recipe.h"
 #include "shadow/view/draw.h"
 
-namespace gn::parts {
-
+namespace gn {
 namespace {
 
 constexpr const char* receiver_text = R"(
@@ -227,28 +226,32 @@ std::string refuse_curved(const Scene& scene, const Light&, const Recipe& recipe
 
 }  // namespace
 
+namespace parts {
+
 const Part& direct_planar() {
-    static const Part part{
-        .id = "planar",
-        .stage = Stage::direct,
-        .title = "Planar shadows",
-        .citation = "Bli88",
-        .lights = all_lights,
-        .features = {Feature::depth32_stencil8},
-        .params = param_table<GnPlanarParams>({
+    static const Part part = [] {
+        Part p;
+        p.id = "planar";
+        p.stage = Stage::direct;
+        p.title = "Planar shadows";
+        p.citation = "Bli88";
+        p.features = {Feature::depth32_stencil8};
+        p.params = param_table<GnPlanarParams>({
             GN_PARAM(GnPlanarParams, planes, integer, 1, 64, "",
                      "More flat receivers get shadows, each for one more drawing of all casters."),
             GN_PARAM(GnPlanarParams, min_area, real, 0, 1, "of the scene's surface",
                      "Smaller flat parts stay without shadow."),
             GN_PARAM(GnPlanarParams, tolerance, real, 1e-7, 1e-2, "of the scene's diagonal",
                      "Rougher planes receive; what stands lower than this above one casts nothing."),
-        }),
-        .params_type = "GnPlanarParams",
-        .glsl = "shadow/direct/planar/planar.glsl",
-        .add_direct = add_planar,
-        .refuses = refuse_curved,
-    };
+        });
+        p.params_type = "GnPlanarParams";
+        p.glsl = "shadow/direct/planar/planar.glsl";
+        p.add_direct = add_planar;
+        p.refuses = refuse_curved;
+        return p;
+    }();
     return part;
 }
 
-}  // namespace gn::parts
+}  // namespace parts
+}  // namespace gn

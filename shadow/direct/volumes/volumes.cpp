@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
-// [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
-// [KKJ08] Departs from it: silhouettes are found by a compute pass; a component that bounds a solid keeps the cheaper
+// Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002. [EK02]
+// Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008. [KKJ08]
+// Departs from it: silhouettes are found by a compute pass; a component that bounds a solid keeps the cheaper
 // form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
 // (volumes.md).
 //
@@ -10,8 +10,7 @@
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
-namespace gn::parts {
-
+namespace gn {
 namespace {
 
 Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
@@ -41,28 +40,32 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
 
 }  // namespace
 
+namespace parts {
+
 const Part& direct_volumes() {
-    static const Part part{
-        .id = "volumes",
-        .stage = Stage::direct,
-        .title = "Shadow volumes, z-fail",
-        .citation = "EK02",
-        .lights = all_lights,
-        .features = {Feature::float32_blend},
-        .params = param_table<GnVolumesParams>({
+    static const Part part = [] {
+        Part p;
+        p.id = "volumes";
+        p.stage = Stage::direct;
+        p.title = "Shadow volumes, z-fail";
+        p.citation = "EK02";
+        p.features = {Feature::float32_blend};
+        p.params = param_table<GnVolumesParams>({
             GN_CHOICE(GnVolumesParams, masked,
                       "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),
             GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
                      "Solids cast with the half of their surface that light meets first; off counts every triangle."),
             GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",
                      "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
-        }),
-        .params_type = "GnVolumesParams",
-        .glsl = "shadow/direct/volumes/volumes.glsl",
-        .add_direct = add_volumes,
-        .remark = remark,
-    };
+        });
+        p.params_type = "GnVolumesParams";
+        p.glsl = "shadow/direct/volumes/volumes.glsl";
+        p.add_direct = add_volumes;
+        p.remark = remark;
+        return p;
+    }();
     return part;
 }
 
-}  // namespace gn::parts
+}  // namespace parts
+}  // namespace gn
