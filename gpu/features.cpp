@@ -49,6 +49,7 @@ const std::array required_features{
     GN_REQUIRED(core.features, fragmentStoresAndAtomics),
     GN_REQUIRED(core.features, vertexPipelineStoresAndAtomics),
     GN_REQUIRED(core.features, shaderStorageImageWriteWithoutFormat),
+    GN_REQUIRED(core.features, shaderClipDistance),
 };
 // Wanted where present, without a name of their own: queries that only widen what shaders may say.
 const std::array wanted_features{
@@ -57,7 +58,6 @@ const std::array wanted_features{
     GN_REQUIRED(core.features, shaderStorageImageMultisample),
     GN_REQUIRED(core.features, shaderImageGatherExtended),
     GN_REQUIRED(core.features, shaderInt64),
-    GN_REQUIRED(core.features, shaderClipDistance),
     GN_REQUIRED(core.features, occlusionQueryPrecise),
     GN_REQUIRED(core.features, pipelineStatisticsQuery),
     GN_REQUIRED(core.features, depthBiasClamp),

@@ -133,6 +133,8 @@ class Recorder {
     virtual void draw_indexed(std::uint32_t indices, std::uint32_t instances = 1, std::uint32_t first_index = 0,
                               std::int32_t vertex_offset = 0, std::uint32_t first_instance = 0) = 0;
     virtual void draw_indirect(BufferHandle arguments, VkDeviceSize offset = 0) = 0;
+    /// Consecutive VkDrawIndexedIndirectCommands from `offset`; more than one where the device draws several at once.
+    virtual void draw_indexed_indirect(BufferHandle arguments, VkDeviceSize offset = 0, std::uint32_t draws = 1) = 0;
     virtual void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1) = 0;
     virtual void dispatch_indirect(BufferHandle arguments, VkDeviceSize offset = 0) = 0;
     /// One workgroup per tile of 8 x 8 pixels.

@@ -199,6 +199,16 @@ void GraphRecorder::draw_indirect(BufferHandle arguments, VkDeviceSize offset) {
     vkCmdDrawIndirect(commands_, resources_.buffer(arguments.index), offset, 1, sizeof(VkDrawIndirectCommand));
 }
 
+void GraphRecorder::draw_indexed_indirect(BufferHandle arguments, VkDeviceSize offset, std::uint32_t draws) {
+    require(arguments, {UseKind::indirect}, "draw_indexed_indirect");
+    prepare(VK_PIPELINE_BIND_POINT_GRAPHICS, "draw_indexed_indirect");
+    if (!has_index_buffer_) {
+        fail("pass '{}' calls draw_indexed_indirect without an index_buffer", pass_->name);
+    }
+    vkCmdDrawIndexedIndirect(commands_, resources_.buffer(arguments.index), offset, draws,
+                             sizeof(VkDrawIndexedIndirectCommand));
+}
+
 void GraphRecorder::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     prepare(VK_PIPELINE_BIND_POINT_COMPUTE, "dispatch");
     order(bound_);

@@ -36,6 +36,7 @@ class GraphRecorder final : public Recorder {
     void draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                       std::int32_t vertex_offset, std::uint32_t first_instance) override;
     void draw_indirect(BufferHandle arguments, VkDeviceSize offset) override;
+    void draw_indexed_indirect(BufferHandle arguments, VkDeviceSize offset, std::uint32_t draws) override;
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
     void dispatch_indirect(BufferHandle arguments, VkDeviceSize offset) override;
     void blit(TextureHandle from, Range from_range, TextureHandle to, Range to_range, VkFilter filter) override;

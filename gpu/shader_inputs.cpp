@@ -30,6 +30,26 @@ ShaderInputs& ShaderInputs::texture(std::string_view type, std::string_view name
     return *this;
 }
 
+ShaderInputs& ShaderInputs::texels(const Device& device, VkFormat format, std::string_view shape, std::string_view name,
+                                   TextureHandle handle) {
+    // A software driver fetches texels several times faster as those of an image.
+    const bool image_wins = device.info().cpu && !image_format(format).empty();
+    if (image_wins) {
+        image(image_format(format), "readonly", fmt::format("image{}", shape), name, handle);
+    } else {
+        texture(fmt::format("sampler{}", shape), name, handle);
+    }
+    entries_.back().declaration += image_wins ? fmt::format(
+                                                    "#define {0}_texel(at) imageLoad({0}, at)\n"
+                                                    "#define {0}_size() imageSize({0}).xy\n",
+                                                    name)
+                                              : fmt::format(
+                                                    "#define {0}_texel(at) texelFetch({0}, at, 0)\n"
+                                                    "#define {0}_size() textureSize({0}, 0).xy\n",
+                                                    name);
+    return *this;
+}
+
 ShaderInputs& ShaderInputs::image(std::string_view format, std::string_view access, std::string_view type,
                                   std::string_view name, TextureHandle handle) {
     entries_.push_back(

@@ -20,6 +20,10 @@ class ShaderInputs {
     /// `uniform TYPE NAME`, read through a sampler. TYPE: sampler2D, sampler2DArray, ...
     ShaderInputs& texture(std::string_view type, std::string_view name, TextureHandle handle,
                           const SamplerDesc& sampler = {});
+    /// A texture of which single texels of the first level are read, in GLSL `NAME_texel(ivec2 or ivec3)` and `NAME_size()`:
+    /// as an image where the device is faster so and GLSL has a name for the format. SHAPE: "2D" or "2DArray".
+    ShaderInputs& texels(const Device& device, VkFormat format, std::string_view shape, std::string_view name,
+                         TextureHandle handle);
     /// An image that is only written, or written and read where `access` is "". FORMAT as GLSL spells it: "r32f".
     ShaderInputs& image(std::string_view format, std::string_view access, std::string_view type, std::string_view name,
                         TextureHandle handle);

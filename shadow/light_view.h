@@ -18,7 +18,6 @@ struct GnLightView {
     float metres_per_depth GN_DEFAULT(1.0f);  ///< distance between near and far plane along the depth axis
     float resolution GN_DEFAULT(1.0f);        ///< texels of the whole layer along one side
     int layer GN_DEFAULT(0);
-    int affine_depth GN_DEFAULT(1);  ///< 1: rasterized z/w already is the linear depth (no fragment shader needed)
     float grid GN_DEFAULT(0.0f);  ///< affine views that keep their texels: rounds clip coordinates, see gn_clip; else 0
     float paraboloid
         GN_DEFAULT(0.0f);  ///< above 0: cs_from_ws gives metres in the light's frame, the map covers this far

@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -94,6 +95,8 @@ struct FrameInput {
     const Light* source = nullptr;  ///< whose shadow is asked for; null in passes for all lights
     std::uint64_t light_id = 0;     ///< keys what the history keeps for the light, in whatever order lights come
     History* history = nullptr;     ///< what earlier frames of the sequence kept; null for a single frame
+    /// Where answers that come after the frame (FrameGraph::answer) say what it lacked; lives as long as they can come.
+    std::set<std::string>* late_remarks = nullptr;
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;
@@ -122,25 +125,38 @@ struct KeptViews {
     std::vector<KeptLayer> layers;
 };
 
+/// How the views of a placement carry the world to their rectangles. Shaders are composed for it, so that it must be said
+/// also where the views themselves are made on the GPU.
+enum class ViewKind {
+    affine,       ///< w = 1 everywhere, and clip z is the linear depth: maps of it alone need no fragments
+    perspective,  ///< any matrix, affine ones among them; fragments write the linear depth
+    paraboloid,   ///< shadow/receiver/paraboloid.glsl
+};
+/// The narrowest kind that views made on the CPU belong to.
+ViewKind kind_of(std::span<const GnLightView> views);
+
 /// placement: where the light looks from.
 struct LightViews {
+    /// Where `buffer` is valid, their number is the most there can be, and of each only layer, rectangle and resolution
+    /// count; with `tiles` only the resolution.
     std::vector<GnLightView> views;
+    ViewKind kind = ViewKind::perspective;
     std::uint32_t resolution = 1024;  ///< texels along a side of every layer
     std::uint32_t layers = 1;
     const Part* part = nullptr;   ///< its GLSL chooses the view of a receiver
     std::array<vec4, 16> data{};  ///< what the part's GLSL choice function is given (GnPlacementData)
     BufferHandle buffer;          ///< GnLightView[] where the placement makes its views on the GPU; else invalid
     BufferHandle data_buffer;     ///< GnPlacementData likewise
+    /// Layers and rectangles, too, are known to `buffer` alone: whole texels, apart from each other. Of views that do not
+    /// exist in this frame the rectangle is empty.
+    bool tiles = false;
+    BufferHandle count;  ///< with tiles: a uint, how many of the views exist, the first ones; invalid: all
     std::vector<std::vector<std::uint32_t>>
         casters;                    ///< per view: indices into Scene::objects that may cast; empty: all
     bool crosses = false;           ///< kernels may leave a view's rectangle, and go on in the view that serves the tap
     bool layered = false;           ///< one pass draws all views, each a whole layer of its own
     std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything
 };
-
-/// Declares and sets the blocks `Views` (GnLightView[]) and `Placement` (GnPlacementData) of a pass.
-void declare_views(PassBuilder& pass, const LightViews& views);
-void set_views(Recorder& r, const LightViews& views);
 
 /// A texture that a stage lends to the shaders of the stages behind it, by the name that parts know it by.
 struct Offer {

@@ -8,6 +8,8 @@
 #include "shadow/casters/caster_depth.h"
 
 #include "shadow/casters/caster_draw.h"
+#include "shadow/casters/peel.h"
+#include "shadow/casters/tiles.h"
 #include "shadow/receiver/sample_pass.h"
 
 namespace gn {
@@ -21,58 +23,41 @@ TextureHandle create_map(const FrameInput& input, const LightViews& views, const
                                .layers = views.layers});
 }
 
-/// Views that are drawn one by one and anew, so that a fragment knows its layer.
+/// Views that are drawn one by one, so that a fragment knows its own.
 LightViews one_by_one(LightViews views) {
     views.layered = false;
-    views.kept.reset();
     return views;
 }
 
-/// The nearest surface behind `nearest`: its own fragments, found again, are dropped.
-TextureHandle add_second(const FrameInput& input, const Recipe& recipe, const LightViews& views,
-                         TextureHandle nearest_depth) {
-    CasterPass pass;
-    pass.name = "map second";
-    pass.every_side = true;
-    pass.depth = create_map(input, views, "map second", VK_FORMAT_D32_SFLOAT);
-    pass.fragment.includes = "#include \"shadow/receiver/receiver.glsl\"\n";
-    pass.fragment.inputs.texture("sampler2DArray", "nearest_depth", nearest_depth);
-    pass.fragment.body = R"(
-#ifdef GN_WRITE_DEPTH
-    float own = depth;
-#else
-    float own = clamp(gl_FragCoord.z, 0.0, 1.0);
-#endif
-    if (own <= texelFetch(nearest_depth, ivec3(gl_FragCoord.xy, views[push.view].layer), 0).r + gn_depth_epsilon) {
-        discard;
-    }
-)";
-    add_caster_passes(input, recipe, one_by_one(views), pass);
-    return pass.depth;
-}
-
-RasterDesc between_pipeline(bool limited) {
-    const std::string text = std::string(limited ? "#define GN_LIMITED\n" : "") + R"(
+RasterDesc between_pipeline(bool limited, bool tiles) {
+    const std::string text =
+        std::string(limited ? "#define GN_LIMITED\n" : "") + (tiles ? "#define GN_TILES\n" : "") + R"(
 #include "shadow/casters/caster_depth.glsl"
 layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(binding = 1) uniform sampler2DArray nearest_depth;
 layout(binding = 2) uniform sampler2DArray second_depth;
 layout(binding = 3, scalar) uniform Constants { GnBias bias; } u;
 layout(push_constant, scalar) uniform Push { int view; } push;
+#ifdef GN_TILES
+layout(location = 7) flat in int tile_view;
+#else
+#define tile_view push.view
+#endif
 void main() {
-    ivec3 texel = ivec3(gl_FragCoord.xy, views[push.view].layer);
+    ivec3 texel = ivec3(gl_FragCoord.xy, views[tile_view].layer);
     float nearest = texelFetch(nearest_depth, texel, 0).r;
     float second = texelFetch(second_depth, texel, 0).r;
 #ifdef GN_LIMITED
-    vec2 uv_ts = gl_FragCoord.xy / views[push.view].resolution;
-    float limit = gn_dual_limit(views[push.view], uv_ts, nearest, u.bias);
+    vec2 uv_ts = gl_FragCoord.xy / views[tile_view].resolution;
+    float limit = gn_dual_limit(views[tile_view], uv_ts, nearest, u.bias);
 #else
     float limit = 1.0;
 #endif
     gl_FragDepth = gn_between(nearest, second, limit);
 }
 )";
-    RasterDesc desc = fullscreen({ShaderKind::fragment, "map between", text});
+    const ShaderSource fragment{ShaderKind::fragment, "map between", text};
+    RasterDesc desc = tiles ? tile_quads(fragment) : fullscreen(fragment);
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_ALWAYS;
     return desc;
@@ -82,28 +67,31 @@ void main() {
 TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle nearest,
                           TextureHandle second) {
     const TextureHandle map = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
-    std::vector<bool> cleared(views.layers, false);
-    for (std::size_t i = 0; i < views.views.size(); ++i) {
-        const auto layer = static_cast<std::uint32_t>(views.views[i].layer);
-        const Load load = cleared[layer] ? Load::keep : Load::clear;
-        cleared[layer] = true;
+    const BufferHandle quads = views.tiles ? add_tile_draw(input, views, tile_quad_vertices) : BufferHandle{};
+    const ShaderInputs inputs = view_inputs(views);
+    for (const ViewPass& view : view_passes(views)) {
         input.graph.add_pass(
             "map between",
             [&](PassBuilder& pass) {
-                pass.depth(map, load, {.depth = 1.0F}, one_layer(layer));
+                pass.depth(map, view.first_of_layer ? Load::clear : Load::keep, {.depth = 1.0F}, one_layer(view.layer));
+                if (views.tiles) {
+                    pass.indirect(quads);
+                }
                 pass.sample(nearest);
                 pass.sample(second);
-                declare_views(pass, views);
+                inputs.declare(pass);
             },
             [=, bias = applied_bias(input, recipe), limited = recipe.casters == Casters::dual](Recorder& r) {
-                set_viewport(r, views.views[i]);
-                r.bind(between_pipeline(limited));
-                set_views(r, views);
+                if (!views.tiles) {
+                    set_viewport(r, views.views[view.index]);
+                }
+                r.bind(between_pipeline(limited, views.tiles));
+                inputs.set(r);
                 r.set("nearest_depth", nearest);
                 r.set("second_depth", second);
                 r.set_value("u", bias);
-                r.push_value(static_cast<int>(i));
-                r.draw(3);
+                r.push_value(static_cast<int>(view.index));
+                views.tiles ? r.draw_indirect(quads) : r.draw(3);
             });
     }
     return map;
@@ -124,8 +112,8 @@ ShadowMap add_caster_depth(const FrameInput& input, const Recipe& recipe, const 
     }
     add_caster_passes(input, recipe, views, pass);
     if (recipe.casters == Casters::midpoint || recipe.casters == Casters::dual) {
-        const TextureHandle second = add_second(input, recipe, views, depth);
-        depth = add_between(input, recipe, views, depth, second);
+        const TextureHandle second = add_next_layer(input, recipe, views, depth);
+        depth = add_between(input, recipe, one_by_one(views), depth, second);
     }
     ShadowMap map{.offers = {{"depth", depth, nearest()}}};
     if (ids.valid()) {

@@ -16,7 +16,7 @@ namespace gn::glsl {
 GN_FN vec3 gn_point_at(GnLightView view, vec2 uv_ts, float depth) {
     vec2 extent_ts = vec2(view.rect_ts.z, view.rect_ts.w);
     vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / extent_ts * 2.0f - 1.0f;
-    if (view.paraboloid > 0.0f) {
+    if (gn_bent(view)) {
         vec3 p_ls = gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
         return vec3(view.ws_from_cs * vec4(p_ls, 1.0f));
     }

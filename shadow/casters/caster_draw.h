@@ -20,7 +20,9 @@ struct CasterDraw {
     SceneHandles handles;
     const Scene* scene = nullptr;
     const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
-    std::size_t view = 0;
+    std::size_t view = 0;          ///< index of the view; with tiles the layer
+    BufferHandle tile_draws;       ///< add_tile_draws, with tiles
+    ShaderInputs view_inputs;      ///< of `views`
 
     /// What a pass must declare besides its attachments.
     void declare(PassBuilder& builder) const;
@@ -38,7 +40,16 @@ struct CasterDraw {
     void opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void draw_object(Recorder& r, std::uint32_t index) const;
 };
+
+/// One pass that draws into the views: of one view, of all where they are layered, or of one layer's tiles.
+struct ViewPass {
+    std::size_t index = 0;  ///< of the view; with tiles the layer
+    std::uint32_t layer = 0;
+    bool first_of_layer = true;
+};
+std::vector<ViewPass> view_passes(const LightViews& views);
 
 /// Viewport and scissor of a view's rectangle in its layer.
 void set_viewport(Recorder& r, const GnLightView& view);

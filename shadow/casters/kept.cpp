@@ -3,6 +3,7 @@
 // window that it shows.
 #include "shadow/casters/caster_draw.h"
 #include "shadow/frame/history.h"
+#include "shadow/receiver/sample_pass.h"
 
 namespace gn {
 namespace {
@@ -68,7 +69,7 @@ void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& 
         tiles.views.push_back(draw.view);
         tiles.casters.push_back(draw.casters);
     }
-    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, &input.light(), 0};
+    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, &input.light(), 0, {}, view_inputs(tiles)};
     input.graph.add_pass(
         pass.name,
         [&](PassBuilder& builder) {
@@ -128,7 +129,7 @@ bool can_keep(const FrameInput& input, const LightViews& views, const CasterPass
         const TextureDesc& desc = input.graph.desc(texture);
         return desc.samples == 1 && desc.mips == 1 && desc.width == views.resolution && desc.layers == views.layers;
     };
-    return views.kept.has_value() && simple(pass.depth) && (!pass.color.valid() || simple(pass.color));
+    return views.kept.has_value() && !views.tiles && simple(pass.depth) && (!pass.color.valid() || simple(pass.color));
 }
 
 void add_kept_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {

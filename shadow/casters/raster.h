@@ -15,7 +15,7 @@ namespace gn {
 struct CasterFragment {
     std::string includes;  ///< GLSL before main: includes, outputs
     /// GLSL in main; reads `float depth` (linear, [0,1]), `vec2 slope` (its change from texel to texel, none where it was
-    /// clamped), views[push.view] and what `inputs` declare, and writes the outputs.
+    /// clamped), views[caster_view] and what `inputs` declare, and writes the outputs.
     std::string body;
     ShaderInputs inputs;
 };
@@ -30,7 +30,7 @@ struct CasterPass {
     bool every_side = false;  ///< backs of one-sided materials too: as what lies behind, not as what casts
 };
 
-/// One pass a view, into the view's rectangle of its layer: opaque casters, then alpha-tested ones. Depth is linear:
+/// One pass a view (or for all layers, or a layer of tiles), into the view's rectangle of its layer: opaque casters, then alpha-tested ones. Depth is linear:
 /// cleared to 1, the nearest kept, casters before the near plane clamped to 0.
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass);
 

@@ -124,7 +124,7 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
     text += include_line(lookup_header) + inputs.text();
     text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
     text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
-    text += sample_functions(input.device, placement) + calls(recipe, map) + main_text;
+    text += sample_functions(placement) + calls(recipe, map) + main_text;
     return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text},
             lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
 }

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/map/prefilter.h"
 
+#include "shadow/casters/tiles.h"
+#include "shadow/map/derived.h"
+#include "shadow/receiver/sample_pass.h"
+
 #include <bit>
 #include <cmath>
 
 namespace gn {
 namespace {
 
-/// A software driver fetches texels several times faster as those of an image, where GLSL has a name for the format.
-bool reads_images(const FrameInput& input, TextureHandle source) {
-    return input.device.info().cpu && !image_format(input.graph.desc(source).format).empty();
-}
-
-/// What a pass over a layer reads: the source as GN_SOURCE(ivec3 texel) of GN_SOURCE_SIZE texels, and the layer.
-std::string layer_head(const FrameInput& input, TextureHandle source) {
-    const std::string declared = reads_images(input, source)
-                                     ? fmt::format(
-                                           "layout(binding = 0, {}) uniform readonly image2DArray source;\n"
-                                           "#define GN_SOURCE(texel) imageLoad(source, texel)\n"
-                                           "#define GN_SOURCE_SIZE imageSize(source).xy\n",
-                                           image_format(input.graph.desc(source).format))
-                                     : "layout(binding = 0) uniform sampler2DArray source;\n"
-                                       "#define GN_SOURCE(texel) texelFetch(source, texel, 0)\n"
-                                       "#define GN_SOURCE_SIZE textureSize(source, 0).xy\n";
-    return declared + "layout(push_constant) uniform Push { int push_layer; };\n";
+/// What `text` of a LayerPass reads beside its inputs. Where tiles are drawn one by one, a texel's own tile ends its source.
+std::string layer_head(const ShaderInputs& inputs, bool tiles) {
+    std::string text = tiles ? "#include \"shadow/casters/tiles.glsl\"\n"
+                               "layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };\n"
+                               "layout(location = 7) flat in int tile_view;\n"
+                               "#define GN_FIRST gn_tile_texels(views[tile_view]).xy\n"
+                               "#define GN_LAST gn_tile_texels(views[tile_view]).zw\n"
+                             : "#define GN_FIRST ivec2(0)\n#define GN_LAST (source_size() - 1)\n";
+    text += "#define GN_SOURCE(texel) source_texel(texel)\n";
+    return text + inputs.text(1) + "layout(push_constant) uniform Push { int push_map_layer; int push_layer; };\n";
 }
 
 /// A texture like `source` with one sample and `mips` levels.
@@ -75,13 +72,14 @@ std::string blur_text(const std::vector<float>& weights, const char* step) {
     }
     text += fmt::format(R"();
 void main() {{
-    ivec2 last = GN_SOURCE_SIZE - 1;
+    ivec2 first = GN_FIRST;
+    ivec2 last = GN_LAST;
     ivec2 texel = ivec2(gl_FragCoord.xy);
     out_moments = weights[0] * GN_SOURCE(ivec3(texel, push_layer));
     for (int i = 1; i < {}; ++i) {{
         ivec2 step = i * ivec2({});
-        out_moments += weights[i] * (GN_SOURCE(ivec3(clamp(texel + step, ivec2(0), last), push_layer)) +
-                                     GN_SOURCE(ivec3(clamp(texel - step, ivec2(0), last), push_layer)));
+        out_moments += weights[i] * (GN_SOURCE(ivec3(clamp(texel + step, first, last), push_layer)) +
+                                     GN_SOURCE(ivec3(clamp(texel - step, first, last), push_layer)));
     }}
 }}
 )",
@@ -150,51 +148,61 @@ std::vector<float> blur_weights(int kernel, int radius) {
     return weights;
 }
 
-TextureHandle add_blur(const FrameInput& input, TextureHandle source, int kernel, int radius, std::uint32_t mips) {
+TextureHandle add_blur(const FrameInput& input, const LightViews& views, TextureHandle source, int kernel, int radius,
+                       std::uint32_t mips) {
     if (!blurs(kernel, radius)) {
         return source;
     }
     const std::vector<float> weights = blur_weights(kernel, radius);
     const TextureHandle half = create_like(input, source, "map blurred in u", 1);
     const TextureHandle whole = create_like(input, source, "map blurred", mips);
-    add_layer_passes(input, source, half, {.name = "blur u", .text = blur_text(weights, "1, 0")});
-    add_layer_passes(input, half, whole, {.name = "blur v", .text = blur_text(weights, "0, 1")});
+    add_layer_passes(input, source, half, {.name = "blur u", .text = blur_text(weights, "1, 0"), .tiles = &views});
+    add_layer_passes(input, half, whole, {.name = "blur v", .text = blur_text(weights, "0, 1"), .tiles = &views});
     return whole;
 }
 
+namespace {
+
+/// Which layer of the map a layer of the target belongs to, where a view has several; and the target's own.
+struct LayerPush {
+    std::int32_t map_layer, layer;
+};
+
+/// Fragments of whole layers, or of the tiles in them alone.
+RasterDesc layer_pipeline(const LayerPass& pass, const ShaderInputs& inputs, bool tiles) {
+    ShaderSource fragment{ShaderKind::fragment, pass.name, pass.includes + layer_head(inputs, tiles) + pass.text};
+    return tiles ? tile_quads(std::move(fragment)) : fullscreen(std::move(fragment));
+}
+
+}  // namespace
+
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass) {
-    const bool image = reads_images(input, source);
-    const RasterDesc desc = fullscreen(
-        {ShaderKind::fragment, pass.name, pass.includes + layer_head(input, source) + pass.inputs.text(1) + pass.text});
-    for (std::uint32_t layer = 0; layer < input.graph.desc(target).layers; ++layer) {
+    const LightViews* const tiles = pass.tiles != nullptr && pass.tiles->tiles ? pass.tiles : nullptr;
+    const BufferHandle quads = tiles != nullptr ? add_tile_draw(input, *tiles, tile_quad_vertices) : BufferHandle{};
+    ShaderInputs inputs = pass.inputs;
+    inputs.texels(input.device, input.graph.desc(source).format, "2DArray", "source", source);
+    const RasterDesc desc = layer_pipeline(pass, inputs, tiles != nullptr);
+    const ShaderInputs lights = tiles != nullptr ? view_inputs(*tiles) : ShaderInputs();
+    const std::uint32_t layers = input.graph.desc(target).layers;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const std::uint32_t map_layer = tiles != nullptr ? layer / (layers / tiles->layers) : 0;
+        const LayerPush push{static_cast<std::int32_t>(map_layer), static_cast<std::int32_t>(layer)};
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {
-                image ? builder.storage_read(source, one_mip(0)) : builder.sample(source, one_mip(0));
-                pass.inputs.declare(builder);
-                builder.color(target, Load::discard, {}, one_layer(layer));
+                inputs.declare(builder);
+                lights.declare(builder);
+                if (quads.valid()) {
+                    builder.indirect(quads);
+                }
+                builder.color(target, quads.valid() ? Load::clear : Load::discard, {}, one_layer(layer));
             },
-            [desc, inputs = pass.inputs, source, layer, image](Recorder& r) {
+            [desc, inputs, lights, push, quads](Recorder& r) {
                 r.bind(desc);
-                image ? r.set_storage("source", source, one_mip(0)) : r.set("source", source, nearest(), one_mip(0));
                 inputs.set(r);
-                r.push_value(static_cast<std::int32_t>(layer));
-                r.draw(3);
-            });
-    }
-}
-
-void add_mips(const FrameInput& input, TextureHandle texture) {
-    const std::uint32_t mips = input.graph.desc(texture).mips;
-    for (std::uint32_t mip = 1; mip < mips; ++mip) {
-        input.graph.add_pass(
-            "mip",
-            [&](PassBuilder& pass) {
-                pass.copy_from(texture, one_mip(mip - 1));
-                pass.copy_to(texture, one_mip(mip));
-            },
-            [texture, mip](Recorder& r) {
-                r.blit(texture, one_mip(mip - 1), texture, one_mip(mip), VK_FILTER_LINEAR);
+                lights.set(r);
+                r.push_value(push);
+                quads.valid() ? r.draw_indirect(quads) : r.draw(3);
             });
     }
 }
@@ -203,11 +211,11 @@ std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resoluti
     return blurs(params.blur, params.radius) ? 1 : all_mips(params, resolution);
 }
 
-ShadowMap filtered_map(const FrameInput& input, std::string_view name, TextureHandle source,
+ShadowMap filtered_map(const FrameInput& input, const LightViews& views, std::string_view name, TextureHandle source,
                        const GnPrefilterParams& params) {
     const TextureHandle blurred =
-        add_blur(input, source, params.blur, params.radius, all_mips(params, input.graph.desc(source).width));
-    add_mips(input, blurred);
+        add_blur(input, views, source, params.blur, params.radius, all_mips(params, input.graph.desc(source).width));
+    add_mips(input.graph, blurred);
     SamplerDesc sampler = trilinear();
     sampler.anisotropy = static_cast<float>(params.anisotropy);
     return {.offers = {{std::string(name), blurred, sampler}}};

@@ -24,15 +24,14 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
 
 /// A separable blur (GN_BLUR_BOX, GN_BLUR_GAUSSIAN) of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
 /// Gaussian of sigma = radius / 2 cut at radius. radius 0 or none returns the source. The result has `mips` levels.
-TextureHandle add_blur(const FrameInput& input, TextureHandle source, int kernel, int radius, std::uint32_t mips = 1);
-
-/// Fills the mip chain of every layer by halving boxes.
-void add_mips(const FrameInput& input, TextureHandle texture);
+/// Of tiles each is blurred by itself, and what lies between them is 0.
+TextureHandle add_blur(const FrameInput& input, const LightViews& views, TextureHandle source, int kernel, int radius,
+                       std::uint32_t mips = 1);
 
 /// Levels that a map is drawn with: those asked for, or one where a blur makes the copy that is read.
 std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resolution);
 /// The end that blurred maps share: blur, mipmap, and read trilinearly; the one offer has this name. `source` has drawn_mips levels.
-ShadowMap filtered_map(const FrameInput& input, std::string_view name, TextureHandle source,
+ShadowMap filtered_map(const FrameInput& input, const LightViews& views, std::string_view name, TextureHandle source,
                        const GnPrefilterParams& params);
 /// How far a blurred map's texels reach.
 Guard blur_guard(const GnPrefilterParams& params);
@@ -51,12 +50,13 @@ ParamRow bleeding_row(std::size_t offset);
 ParamRow reduction_row(std::size_t offset);
 
 /// One fragment pass a layer over a whole texture. `text` reads GN_SOURCE(ivec3 texel), the texels of the source's first
-/// level, push_layer, gl_FragCoord and what `inputs` declare.
+/// level from GN_FIRST to GN_LAST, push_layer, gl_FragCoord and what `inputs` declare.
 struct LayerPass {
     std::string name;
     std::string includes;  ///< GLSL that `inputs` need
     std::string text;      ///< must contain: layout(location = 0) out vec4 ...
     ShaderInputs inputs;
+    const LightViews* tiles = nullptr;  ///< where they are tiles, only their texels are drawn
 };
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass);
 

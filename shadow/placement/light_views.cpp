@@ -127,7 +127,6 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
     view.depth_from_ws = vec4(dvec4(axis / (far - near), -near / (far - near)));
     view.eye_ws = vec4(vec3(-axis), 0);
     view.metres_per_depth = static_cast<float>(far - near);
-    view.affine_depth = 1;
     return view;
 }
 
@@ -149,7 +148,6 @@ GnLightView perspective(dvec3 eye, dvec3 axis, dvec3 right, dvec3 down, dvec2 mi
     view.depth_from_ws = vec4((w - dvec4(0, 0, 0, near)) / (far - near));
     view.eye_ws = vec4(vec3(eye), 1);
     view.metres_per_depth = static_cast<float>(far - near);
-    view.affine_depth = 0;
     return view;
 }
 
@@ -232,6 +230,7 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Guard& gua
                                                       {vec3(0, -1, 0), vec3(0, 0, 1)},
                                                       {vec3(0, 0, 1), vec3(0, 1, 0)},
                                                       {vec3(0, 0, -1), vec3(0, 1, 0)}}};
+    views.kind = ViewKind::perspective;
     views.views.clear();
     for (const auto& [axis_ws, up_ws] : faces) {
         views.views.push_back(square_perspective(eye_ws, axis_ws, up_ws, tangent, near_plane(far), far, resolution));

@@ -145,7 +145,6 @@ GnLightView view_of(const Plane2& plane, const Warp& warp) {
     const dmat4 rows(row(h[0]), row(h[1]), dvec4(plane.fitted.depth_from_ws), row(h[2]));
     view.cs_from_ws = mat4(glm::transpose(rows));
     view.ws_from_cs = mat4(glm::inverse(glm::transpose(rows)));
-    view.affine_depth = 0;
     return view;
 }
 

@@ -175,6 +175,7 @@ LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_ne
     // Warp.
     const auto plane = nothing ? std::nullopt : plane_of(input, body, fitted, recipe, pseudo_near);
     views.views = {plane ? choose(*plane, recipe) : fitted};
+    views.kind = kind_of(views.views);
     return views;
 }
 

@@ -28,7 +28,7 @@ GN_FN vec3 gn_way_ws(GnReceiver receiver, GnLightView view, vec2 d_ts) {
     }
     vec3 way_ws = (cross(dv_ws, receiver.n_ws) * d_ts.x + cross(receiver.n_ws, du_ws) * d_ts.y) / determinant;
     float fall = dot(gn_row(view.cs_from_ws, 3), way_ws) / gn_clip(view, receiver.p_ws).w;
-    return fall < 1.0f - gn_least_divisor && view.paraboloid == 0.0f ? way_ws / (1.0f - fall) : vec3(0.0f);
+    return fall < 1.0f - gn_least_divisor && !gn_bent(view) ? way_ws / (1.0f - fall) : vec3(0.0f);
 }
 
 #ifdef __cplusplus

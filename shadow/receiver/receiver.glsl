@@ -20,6 +20,26 @@
 namespace gn::glsl {
 #endif
 
+// What a host may fix when it compiles: whether there is a cone, whether taps follow the receiver's plane, and the kind of
+// all views of the placement, 0 affine, 1 perspective or affine, 2 paraboloids. Left open, all of it is decided tap by tap.
+//   #define GN_BIAS_CONE 0
+//   #define GN_BIAS_PLANE true
+//   #define GN_VIEW_KIND 0
+#if defined(__cplusplus)
+#define GN_BIAS_CONE 1
+#define GN_BIAS_PLANE (bias.receiver_plane != 0)
+#define GN_VIEW_KIND 3
+#endif
+#ifndef GN_BIAS_CONE
+#define GN_BIAS_CONE 1
+#endif
+#ifndef GN_BIAS_PLANE
+#define GN_BIAS_PLANE (bias.receiver_plane != 0)
+#endif
+#ifndef GN_VIEW_KIND
+#define GN_VIEW_KIND 3
+#endif
+
 // A view sample as every stage sees it.
 struct GnReceiver {
     vec3 p_ws;
@@ -79,6 +99,11 @@ const float gn_depth_epsilon = 4.0f / 16777216.0f;
 // Beyond it a plane seen edge-on would give depths behind the eye.
 const float gn_least_divisor = 1.0e-3f;
 
+// Whether the view is a paraboloid: straight lines are bent on its map.
+GN_FN bool gn_bent(GnLightView view) {
+    return GN_VIEW_KIND == 2 || (GN_VIEW_KIND == 3 && view.paraboloid > 0.0f);
+}
+
 // Unit direction from p_ws to the view's eye.
 GN_FN vec3 gn_to_eye(GnLightView view, vec3 p_ws) {
     return view.eye_ws.w > 0.5f ? normalize(vec3(view.eye_ws) - p_ws) : vec3(view.eye_ws);
@@ -108,14 +133,14 @@ GN_FN void gn_uv_gradients(GnLightView view, vec3 p_ws, GN_OUT(vec3) du_ws, GN_O
     float inverse_w = 1.0f / p_cs.w;
     du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
     dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
-    if (view.paraboloid > 0.0f) {
+    if (gn_bent(view)) {
         gn_paraboloid_gradients(view, vec3(p_cs), scale_ts, du_ws, dv_ws);
     }
 }
 
 // Linear depth that one metre towards the view's eye takes off.
 GN_FN float gn_depth_per_metre(GnLightView view, vec3 to_eye_ws) {
-    return view.paraboloid > 0.0f ? 1.0f / view.metres_per_depth : -dot(vec3(view.depth_from_ws), to_eye_ws);
+    return gn_bent(view) ? 1.0f / view.metres_per_depth : -dot(vec3(view.depth_from_ws), to_eye_ws);
 }
 
 // Half a pixel's reach across the rays of light, in metres, where a kernel covers the pixel's footprint.
@@ -206,7 +231,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     result.metres_per_depth = view.metres_per_depth;
     result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     vec4 p_cs = gn_clip(view, p_ws);
-    if (view.paraboloid > 0.0f) {
+    if (gn_bent(view)) {
         result.bias = length(vec3(gn_clip(view, receiver.p_ws))) / view.metres_per_depth;
         return gn_open_cone(gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws), bias.cone, unit, bias);
     }
@@ -236,26 +261,6 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     return gn_open_cone(result, bias.cone, unit, bias);
 }
 
-// What a host may fix when it compiles: whether there is a cone, whether taps follow the receiver's plane, and that no view
-// of the placement is perspective or bent. Left open, all of it is decided tap by tap.
-//   #define GN_BIAS_CONE 0
-//   #define GN_BIAS_PLANE true
-//   #define GN_AFFINE_VIEWS 1
-#if defined(__cplusplus)
-#define GN_BIAS_CONE 1
-#define GN_BIAS_PLANE (bias.receiver_plane != 0)
-#define GN_AFFINE_VIEWS 0
-#endif
-#ifndef GN_BIAS_CONE
-#define GN_BIAS_CONE 1
-#endif
-#ifndef GN_BIAS_PLANE
-#define GN_BIAS_PLANE (bias.receiver_plane != 0)
-#endif
-#ifndef GN_AFFINE_VIEWS
-#define GN_AFFINE_VIEWS 0
-#endif
-
 // Depth that the cone takes off a tap at a distance from the receiver.
 GN_FN float gn_cone(GnProjected projected, vec2 d_ts) {
     if (GN_BIAS_CONE == 0) {
@@ -272,10 +277,10 @@ GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
         return depth;
     }
     float slope = dot(projected.plane_slope, d_ts);
-    if (GN_AFFINE_VIEWS == 1) {
+    if (GN_VIEW_KIND == 0) {
         return depth + slope;
     }
-    vec2 curve = projected.plane_curve * dot(d_ts, d_ts);
+    vec2 curve = GN_VIEW_KIND == 1 ? vec2(0.0f) : projected.plane_curve * dot(d_ts, d_ts);
     float divisor = max(1.0f - dot(projected.plane_fall, d_ts) - curve.y, gn_least_divisor);
     return depth + (slope + curve.x) / divisor;
 }
@@ -291,11 +296,11 @@ GN_FN bvec4 gn_lit_beside(GnProjected projected, vec4 du_ts, vec4 dv_ts, vec4 oc
     if (GN_BIAS_CONE == 1) {
         room = room + projected.cone_share * max(offset, vec4(0.0f));
     }
-    if (GN_AFFINE_VIEWS == 1) {
+    if (GN_VIEW_KIND == 0) {
         return lessThanEqual(offset, room);
     }
     vec4 divisor = 1.0f - (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
-    if (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f) {
+    if (GN_VIEW_KIND != 1 && (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f)) {
         vec4 square = du_ts * du_ts + dv_ts * dv_ts;
         divisor = divisor - projected.plane_curve.y * square;
         offset = offset + projected.plane_curve.x * square;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* read_text = R"(
 bool read_sample(ivec2 pixel, out GnReceiver receiver) {
-    vec4 position = GN_POSITION(pixel);
-    vec4 normal = GN_NORMAL(pixel);
+    vec4 position = gbuffer_position_texel(pixel);
+    vec4 normal = gbuffer_normal_texel(pixel);
     if (position.w < 0.5 || !gn_counted(u.light, position.xyz, normal.xyz)) {
         return false;
     }
@@ -21,30 +21,10 @@ bool read_sample(ivec2 pixel, out GnReceiver receiver) {
 }
 )";
 
-/// A software driver fetches texels several times faster as those of an image.
-bool reads_images(const Device& device) {
-    return device.info().cpu;
-}
-
 bool as_uniform(const LightViews& views) {
     // Uniform blocks of this many views fit every device; what is uniform is read once for many pixels.
     constexpr std::size_t most_uniform = 16384 / sizeof(GnLightView);
     return views.views.size() <= most_uniform;
-}
-
-void add_views(ShaderInputs& inputs, const LightViews& views) {
-    const std::string_view kind = as_uniform(views) ? "uniform" : "readonly buffer";
-    const std::string_view members = as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];";
-    if (views.buffer.valid()) {
-        inputs.buffer(kind, "Views", members, views.buffer);
-    } else {
-        inputs.block(kind, "Views", members, std::as_bytes(std::span(views.views)));
-    }
-    if (views.data_buffer.valid()) {
-        inputs.buffer("uniform", "Placement", "GnPlacementData placement;", views.data_buffer);
-    } else {
-        inputs.block("uniform", "Placement", "GnPlacementData placement;", std::as_bytes(std::span(views.data)));
-    }
 }
 
 }  // namespace
@@ -54,12 +34,8 @@ std::string include_line(std::string_view path) {
 }
 
 std::string receiver_defines(const Recipe& recipe, const LightViews& views) {
-    const bool affine = std::all_of(views.views.begin(), views.views.end(), [](const GnLightView& view) {
-        const mat4& m = view.cs_from_ws;
-        return view.paraboloid == 0 && vec4(m[0].w, m[1].w, m[2].w, m[3].w) == vec4(0, 0, 0, 1);
-    });
-    return fmt::format("#define GN_BIAS_CONE {:d}\n#define GN_BIAS_PLANE {}\n#define GN_AFFINE_VIEWS {:d}\n",
-                       recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, affine) +
+    return fmt::format("#define GN_BIAS_CONE {:d}\n#define GN_BIAS_PLANE {}\n#define GN_VIEW_KIND {}\n",
+                       recipe.bias.cone > 0, recipe.bias.receiver_plane != 0, static_cast<int>(views.kind)) +
            (as_uniform(views) ? fmt::format("#define GN_VIEW_COUNT {}\n", views.views.size()) : "");
 }
 
@@ -77,6 +53,27 @@ GnBias applied_bias(const FrameInput& input, const Recipe& recipe) {
     return applied_bias(recipe, input.light(), input.scene.bounds_ws);
 }
 
+void add_views(ShaderInputs& inputs, const LightViews& views) {
+    const std::string_view kind = as_uniform(views) ? "uniform" : "readonly buffer";
+    const std::string_view members = as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];";
+    if (views.buffer.valid()) {
+        inputs.buffer(kind, "Views", members, views.buffer);
+    } else {
+        inputs.block(kind, "Views", members, std::as_bytes(std::span(views.views)));
+    }
+    if (views.data_buffer.valid()) {
+        inputs.buffer("uniform", "Placement", "GnPlacementData placement;", views.data_buffer);
+    } else {
+        inputs.block("uniform", "Placement", "GnPlacementData placement;", std::as_bytes(std::span(views.data)));
+    }
+}
+
+ShaderInputs view_inputs(const LightViews& views) {
+    ShaderInputs inputs;
+    add_views(inputs, views);
+    return inputs;
+}
+
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
@@ -87,27 +84,13 @@ ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const 
     return inputs;
 }
 
-std::string sample_functions(const Device& device, const Part& placement) {
-    return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}{}", identifier(placement.id), gbuffer_defines(device),
-                       read_text);
+std::string sample_functions(const Part& placement) {
+    return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}", identifier(placement.id), read_text);
 }
 
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples) {
-    for (const auto& [name, texture] :
-         {std::pair{"gbuffer_position", samples.position}, {"gbuffer_normal", samples.normal}}) {
-        if (reads_images(device)) {
-            inputs.image("rgba32f", "readonly", "image2D", name, texture);
-        } else {
-            inputs.texture("sampler2D", name, texture);
-        }
-    }
-}
-
-std::string gbuffer_defines(const Device& device) {
-    return reads_images(device) ? "#define GN_POSITION(pixel) imageLoad(gbuffer_position, pixel)\n"
-                                  "#define GN_NORMAL(pixel) imageLoad(gbuffer_normal, pixel)\n"
-                                : "#define GN_POSITION(pixel) texelFetch(gbuffer_position, pixel, 0)\n"
-                                  "#define GN_NORMAL(pixel) texelFetch(gbuffer_normal, pixel, 0)\n";
+    inputs.texels(device, VK_FORMAT_R32G32B32A32_SFLOAT, "2D", "gbuffer_position", samples.position);
+    inputs.texels(device, VK_FORMAT_R32G32B32A32_SFLOAT, "2D", "gbuffer_normal", samples.normal);
 }
 
 ivec4 lit_pixels(const FrameInput& input) {
@@ -130,27 +113,6 @@ ivec4 lit_pixels(const FrameInput& input) {
     const ivec2 first(glm::clamp(glm::floor(low) - 1.0, dvec2(0), dvec2(size)));
     const ivec2 last(glm::clamp(glm::ceil(high) + 1.0, dvec2(0), dvec2(size)));
     return {first, glm::max(last - first, ivec2(0))};
-}
-
-void declare_views(PassBuilder& pass, const LightViews& views) {
-    for (const BufferHandle buffer : {views.buffer, views.data_buffer}) {
-        if (buffer.valid()) {
-            pass.storage_read(buffer);
-        }
-    }
-}
-
-void set_views(Recorder& r, const LightViews& views) {
-    if (views.buffer.valid()) {
-        r.set("Views", views.buffer);
-    } else {
-        r.set_bytes("Views", std::as_bytes(std::span(views.views)));
-    }
-    if (views.data_buffer.valid()) {
-        r.set("Placement", views.data_buffer);
-    } else {
-        r.set_value("Placement", views.data);
-    }
 }
 
 }  // namespace gn

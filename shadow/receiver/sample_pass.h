@@ -18,18 +18,22 @@ std::string receiver_defines(const Recipe& recipe, const LightViews& views);
 GnBias applied_bias(const Recipe& recipe, const Light& light, const Box& bounds_ws);
 GnBias applied_bias(const FrameInput& input, const Recipe& recipe);
 
+/// Adds the blocks `Views` (GnLightView[], in declarations that count them GN_VIEW_COUNT of receiver_defines) and `Placement`
+/// (GnPlacementData).
+void add_views(ShaderInputs& inputs, const LightViews& views);
+/// The two alone, for shaders that declare them as storage buffers by themselves.
+ShaderInputs view_inputs(const LightViews& views);
+
 /// The G-buffer's positions and normals, the blocks `Views` and `Placement`, and the constants u.view, u.light and u.bias.
 /// Their types stand in shadow/view/view.glsl.
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
 /// GLSL, after the inputs' text: GN_CHOOSE(receiver, placement), and `bool read_sample(ivec2 pixel, out GnReceiver)`, which
 /// is false where no sample counts.
-std::string sample_functions(const Device& device, const Part& placement);
+std::string sample_functions(const Part& placement);
 
-/// Adds positions and normals, each read by its own pixel alone, to what a shader reads.
+/// Adds gbuffer_position and gbuffer_normal to what a shader reads, texel by texel.
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples);
-/// GLSL: GN_POSITION(pixel) and GN_NORMAL(pixel) of them.
-std::string gbuffer_defines(const Device& device);
 
 /// The pixels, x, y, width and height, beyond which no sample of the view counts for the light.
 ivec4 lit_pixels(const FrameInput& input);

@@ -50,8 +50,10 @@ class Part {
     std::vector<std::string_view> gives;
     /// map: which of them its own GLSL reads, in order. One that a recipe leaves out is replaced as `optional` ones are.
     std::vector<std::string_view> textures;
-    bool separates_casters = false;       ///< map: serves casters = midpoint, dual, ids
-    std::vector<std::string_view> reads;  ///< direct: keys of maps that it reads too ("placement", "resolution")
+    bool bends = false;                        ///< placement: straight edges are not straight on its maps
+    std::vector<std::string_view> view_names;  ///< placement: what its views are called, in order; empty: by number
+    bool separates_casters = false;            ///< map: serves casters = midpoint, dual, ids
+    std::vector<std::string_view> reads;       ///< direct: keys of maps that it reads too ("placement", "resolution")
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused
     /// Further features that its parameters ask for; may be null.

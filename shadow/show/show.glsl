@@ -25,7 +25,7 @@ GN_FN float gn_texels_per_pixel(GnReceiver receiver, GnProjected projected) {
 // Metres between a receiver projected with its bias and without: the step in the world that changes uv and depth so, to
 // first order.
 GN_FN float gn_bias_metres(GnReceiver receiver, GnLightView view, GnProjected moved, GnProjected still) {
-    vec3 along_ws = view.paraboloid > 0.0f ? -gn_to_eye(view, receiver.p_ws) / view.metres_per_depth
+    vec3 along_ws = gn_bent(view) ? -gn_to_eye(view, receiver.p_ws) / view.metres_per_depth
                                            : vec3(view.depth_from_ws);
     vec2 change_ts = moved.uv_ts - still.uv_ts;
     vec3 step_ws = change_ts.x * cross(still.dv_ws, along_ws) + change_ts.y * cross(along_ws, still.du_ws) +

@@ -187,11 +187,11 @@ Shown color_choice(const Image& choice, std::span<const float> shade, const Ligh
             burn_text(shown.picture, x, choice.height - swatch + 3, text, scale);
         }
     }
-    const bool faces = views.part->id == "cube";
+    const std::vector<std::string_view>& names = views.part->view_names;
     shown.legend = fmt::format(
         "Colours number the light views 0 to {}{}; mixed where two are blended, magenta where none holds the "
         "sample, grey where no light arrives.",
-        most, faces ? " (+x, -x, +y, -y, +z, -z)" : "");
+        most, names.empty() ? "" : fmt::format(" ({})", fmt::join(names, ", ")));
     return shown;
 }
 

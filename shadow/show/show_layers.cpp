@@ -44,7 +44,7 @@ constexpr const char* light_includes = R"(
 layout(location = 0) out vec4 out_light;
 vec3 point_at(GnLightView view, vec2 xy, float depth) {
     vec2 p_ndc = ((xy / view.resolution - view.rect_ts.xy) / view.rect_ts.zw) * 2.0 - 1.0;
-    if (view.paraboloid > 0.0) {
+    if (gn_bent(view)) {
         return gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
     }
     vec4 near = view.ws_from_cs * vec4(p_ndc, 0.0, 1.0);
@@ -57,39 +57,18 @@ vec3 point_at(GnLightView view, vec2 xy, float depth) {
 
 // The surface's slope against the ray: its points one texel further. Derivatives stand outside of any branch.
 constexpr const char* light_body = R"(
-#ifdef GN_LAYERED
-    GnLightView view = views[gl_Layer];
-#else
-    GnLightView view = views[push.view];
-#endif
+    GnLightView view = views[caster_view];
     vec2 step = vec2(dFdx(in_depth), dFdy(in_depth));
     vec3 p = point_at(view, gl_FragCoord.xy, in_depth);
     vec3 right = point_at(view, gl_FragCoord.xy + vec2(1.0, 0.0), in_depth + step.x) - p;
     vec3 below = point_at(view, gl_FragCoord.xy + vec2(0.0, 1.0), in_depth + step.y) - p;
-    vec3 to_eye = view.paraboloid > 0.0 ? -normalize(p) : gn_to_eye(view, p);
+    vec3 to_eye = gn_bent(view) ? -normalize(p) : gn_to_eye(view, p);
     vec3 normal = cross(right, below);
     float size = length(normal);
     out_light = vec4(size > 0.0 ? abs(dot(normal, to_eye)) / size : 0.0, depth, 0.0, 1.0);
 )";
 
 }  // namespace
-
-int channels_of(VkFormat format) {
-    switch (format) {
-        case VK_FORMAT_D32_SFLOAT:
-        case VK_FORMAT_D16_UNORM:
-        case VK_FORMAT_D32_SFLOAT_S8_UINT:
-        case VK_FORMAT_R8_UNORM:
-        case VK_FORMAT_R16_UNORM:
-        case VK_FORMAT_R16_SFLOAT:
-        case VK_FORMAT_R32_SFLOAT: return 1;
-        case VK_FORMAT_R8G8_UNORM:
-        case VK_FORMAT_R16G16_UNORM:
-        case VK_FORMAT_R16G16_SFLOAT:
-        case VK_FORMAT_R32G32_SFLOAT: return 2;
-        default: return 4;
-    }
-}
 
 LayerTiles add_layer_tiles(const FrameInput& input, TextureHandle layers) {
     // As many columns as there is room for whole tiles.

@@ -40,9 +40,6 @@ LayerTiles add_layer_tiles(const FrameInput& input, TextureHandle layers);
 /// sees a caster.
 TextureHandle add_light_picture(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
-/// Channels that a format stores.
-int channels_of(VkFormat format);
-
 /// Colours. `shade` darkens by the surface's slope against the view, so that shapes stay visible.
 Shown color_choice(const Image& choice, std::span<const float> shade, const LightViews& views);
 Shown color_texels(const Image& sizes);

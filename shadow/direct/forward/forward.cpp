@@ -31,7 +31,7 @@ Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
 
     // Carry every lit texel into the view.
     const BufferHandle samples = add_forward_samples(input, recipe, views, params);
-    const BufferHandle light = add_forward_splats(input, views, depth, samples, params);
+    const BufferHandle light = add_forward_splats(input, recipe, views, depth, samples, params);
     return add_forward_resolve(input, samples, light);
 }
 
@@ -45,10 +45,11 @@ std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe
                 scene.objects[i].name, light.name);
         }
     }
-    return recipe.placement != nullptr && recipe.placement->id == "paraboloid"
-               ? "direct 'forward' follows straight rays through its map and placement 'paraboloid' bends them; use "
-                 "auto "
-                 "or cube"
+    return recipe.placement != nullptr && recipe.placement->bends
+               ? fmt::format(
+                     "direct 'forward' follows straight rays through its map and placement '{}' bends them; "
+                     "use auto or cube",
+                     recipe.placement->id)
                : "";
 }
 

@@ -38,14 +38,7 @@ void main() {
 )";
 
 constexpr const char* splat_text = R"(
-#include "shadow/view/view.glsl"
-#include "shadow/direct/forward/forward.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2DArray depth_map;
-layout(binding = 1, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 2, scalar) readonly buffer Samples { GnForwardSample samples[]; };
-layout(binding = 3, scalar) buffer Light { uint light[]; };
-layout(binding = 4, scalar) uniform Constants { GnViewConstants view; GnForwardParams params; } u;
 layout(push_constant) uniform Push { int index; };
 
 float depth_at(ivec2 texel) { return texelFetch(depth_map, ivec3(texel, views[index].layer), 0).r; }
@@ -128,11 +121,7 @@ void main() {
 )";
 
 constexpr const char* resolve_text = R"(
-#include "shadow/direct/forward/forward.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, scalar) readonly buffer Samples { GnForwardSample samples[]; };
-layout(binding = 1, scalar) readonly buffer Light { uint light[]; };
-layout(binding = 2, r32f) uniform writeonly image2D visibility;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     ivec2 size = imageSize(visibility);
@@ -149,11 +138,6 @@ void main() {
 
 /// Bytes of GnForwardSample in scalar layout.
 constexpr VkDeviceSize sample_bytes = 10 * 4;
-
-struct SplatConstants {
-    GnViewConstants view;
-    GnForwardParams params;
-};
 
 VkDeviceSize pixels(const ViewSamples& samples) {
     return VkDeviceSize{samples.width} * samples.height;
@@ -173,7 +157,7 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
     inputs.constant("GnForwardParams", "params", params);
     const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
                              include_line(views.part->glsl) + "#include \"shadow/direct/forward/forward.glsl\"\n" +
-                             inputs.text() + sample_functions(input.device, *views.part) + samples_text;
+                             inputs.text() + sample_functions(*views.part) + samples_text;
     input.graph.add_pass(
         "forward: samples", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, text, width = samples.width, height = samples.height](Recorder& r) {
@@ -184,32 +168,31 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
     return buffer;
 }
 
-BufferHandle add_forward_splats(const FrameInput& input, const LightViews& views, TextureHandle depth,
-                                BufferHandle samples, const GnForwardParams& params) {
+BufferHandle add_forward_splats(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                                TextureHandle depth, BufferHandle samples, const GnForwardParams& params) {
     const BufferHandle light =
         input.graph.create(BufferDesc{.name = "forward light", .bytes = pixels(input.samples) * sizeof(std::uint32_t)});
     input.graph.add_pass(
         "forward: darkness", [&](PassBuilder& pass) { pass.copy_to(light); },
         [light](Recorder& r) { r.fill(light, 0); });
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "depth_map", depth);
+    add_views(inputs, views);
+    inputs.buffer("readonly buffer", "Samples", "GnForwardSample samples[];", samples);
+    inputs.buffer("buffer", "Light", "uint light[];", light);
+    inputs.constant("GnViewConstants", "view", input.samples.constants);
+    inputs.constant("GnForwardParams", "params", params);
+    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
+                             "#include \"shadow/direct/forward/forward.glsl\"\n" + inputs.text() + splat_text;
     input.graph.add_pass(
-        "forward: splat",
-        [&](PassBuilder& pass) {
-            pass.sample(depth);
-            declare_views(pass, views);
-            pass.storage_read(samples);
-            pass.storage_write(light);
-        },
-        [=, constants = SplatConstants{input.samples.constants, params}](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-splat.comp", splat_text}});
-            r.set("depth_map", depth);
-            set_views(r, views);
-            r.set("Samples", samples);
-            r.set("Light", light);
-            r.set_value("u", constants);
-            for (std::size_t view = 0; view < views.views.size(); ++view) {
+        "forward: splat", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, text, count = views.views.size(), resolution = views.resolution](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-splat.comp", text}});
+            inputs.set(r);
+            for (std::size_t view = 0; view < count; ++view) {
                 // A whole layer covers any rectangle, also one that is chosen on the GPU.
                 r.push_value(static_cast<std::int32_t>(view));
-                r.dispatch_pixels(views.resolution, views.resolution);
+                r.dispatch_pixels(resolution, resolution);
             }
         });
     return light;
@@ -217,18 +200,16 @@ BufferHandle add_forward_splats(const FrameInput& input, const LightViews& views
 
 Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, BufferHandle light) {
     const Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Samples", "GnForwardSample samples[];", samples);
+    inputs.buffer("readonly buffer", "Light", "uint light[];", light);
+    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
+    const std::string text = "#include \"shadow/direct/forward/forward.glsl\"\n" + inputs.text() + resolve_text;
     input.graph.add_pass(
-        "forward: resolve",
-        [&](PassBuilder& pass) {
-            pass.storage_read(samples);
-            pass.storage_read(light);
-            pass.storage_write(result.image);
-        },
-        [=, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-resolve.comp", resolve_text}});
-            r.set("Samples", samples);
-            r.set("Light", light);
-            r.set_storage("visibility", result.image);
+        "forward: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, text, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-resolve.comp", text}});
+            inputs.set(r);
             r.dispatch_pixels(width, height);
         });
     return result;

@@ -11,8 +11,8 @@ namespace gn {
 BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                                  const GnForwardParams& params);
 /// One uint a pixel, in units of 1 / 65536: what all lit texels bring to it.
-BufferHandle add_forward_splats(const FrameInput& input, const LightViews& views, TextureHandle depth,
-                                BufferHandle samples, const GnForwardParams& params);
+BufferHandle add_forward_splats(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                                TextureHandle depth, BufferHandle samples, const GnForwardParams& params);
 /// V from the sums.
 Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, BufferHandle light);
 

@@ -47,7 +47,7 @@ ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const L
     const TextureHandle basis = add_basis(input, depth, params);
 
     // Blur and mipmap.
-    return filtered_map(input, "waves", basis, params.prefilter);
+    return filtered_map(input, views, "waves", basis, params.prefilter);
 }
 
 Guard guard(const Recipe& recipe, const Light&, const Box&) {

@@ -66,7 +66,7 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap; the fallback compares depths, and skips what a pyramid of their ranges decides.
-    ShadowMap map = filtered_map(input, "exponentials", raw, params.prefilter);
+    ShadowMap map = filtered_map(input, views, "exponentials", raw, params.prefilter);
     if (params.fallback != 0) {
         const TextureHandle depths = params.samples > 1 ? add_spread(input, moments.depth) : moments.depth;
         map.offers.push_back({"ranges", add_min_max_pyramid(input.graph, depths), nearest()});

@@ -39,7 +39,7 @@ layout(location = 0) out vec4 out_moments;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, "moments", raw, params.prefilter);
+    return filtered_map(input, views, "moments", raw, params.prefilter);
 }
 
 std::vector<Feature> features_for(const Recipe& recipe) {

@@ -22,7 +22,7 @@ ShadowMap add_lvsm(const FrameInput& input, const Recipe& recipe, const LightVie
     const TextureHandle warped = add_warp(input, depths, splits, params);
 
     // Blur and mipmap.
-    ShadowMap map = filtered_map(input, "moments", warped, params.prefilter);
+    ShadowMap map = filtered_map(input, views, "moments", warped, params.prefilter);
     if (splits.valid()) {
         map.offers.push_back({"splits", splits, nearest()});
     }

@@ -5,9 +5,12 @@
 // Based on: Sen, Cammarano, Hanrahan. Shadow Silhouette Maps. SIGGRAPH 2003. [SCH03]
 #include "shadow/map/silhouette_map/silhouette_edges.h"
 
+#include "shadow/casters/caster_draw.h"
+#include "shadow/casters/tiles.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/edges.h"
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
+#include "shadow/receiver/sample_pass.h"
 #include "shadow/scene/casting.h"
 
 #include <map>
@@ -16,14 +19,19 @@ namespace gn {
 namespace {
 
 constexpr const char* vertex_text = R"(
-#include "shadow/light_view.h"
+#include "shadow/casters/tiles.glsl"
 layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
 layout(binding = 2, scalar) readonly buffer Indices { uvec3 triangles[]; };
 layout(binding = 3, scalar) readonly buffer Edges { uvec2 edges[]; };
 layout(binding = 4, scalar) readonly buffer First { uint first[]; };
 layout(binding = 5, scalar) readonly buffer Around { uint around[]; };
+#ifdef GN_TILES
+layout(push_constant) uniform Push { int layer; };
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
+#else
 layout(push_constant) uniform Push { int view; };
+#endif
 layout(location = 0) flat out vec4 out_segment;     // ends, in cells
 layout(location = 1) flat out vec4 out_depth_over_w;  // depth / w and 1 / w of both ends
 
@@ -58,7 +66,12 @@ void clip(inout vec2 t, float at_a, float at_b) {
 
 void main() {
     uint edge = uint(gl_VertexIndex) / 6u;
+#ifdef GN_TILES
+    GnLightView v = views[gl_InstanceIndex];
+    gl_ClipDistance = float[](-1.0, -1.0, -1.0, -1.0);
+#else
     GnLightView v = views[view];
+#endif
     gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
     out_segment = vec4(0.0);
     out_depth_over_w = vec4(0.0, 1.0, 0.0, 1.0);
@@ -99,6 +112,12 @@ void main() {
     vec2 p = (corner & 1) == 0 ? from - along : to + along;
     p += (corner & 2) == 0 ? -across : across;
     gl_Position = vec4(p / v.resolution * 2.0 - 1.0, 0.5, 1.0);
+#ifdef GN_TILES
+    vec4 rect = v.rect_ts * v.resolution;
+    if (gn_tile_in(v, layer)) {
+        gl_ClipDistance = float[](p.x - rect.x, rect.x + rect.z - p.x, p.y - rect.y, rect.y + rect.w - p.y);
+    }
+#endif
 }
 )";
 
@@ -189,9 +208,10 @@ struct Push {
     int view, map_layer;
 };
 
-RasterDesc edge_pipeline() {
+RasterDesc edge_pipeline(bool tiles) {
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, "silhouettes.vert", vertex_text};
+    desc.vertex = {ShaderKind::vertex, "silhouettes.vert",
+                   std::string(tiles ? "#define GN_TILES\n" : "") + vertex_text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "silhouettes.frag", fragment_text};
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_LESS;
@@ -200,23 +220,27 @@ RasterDesc edge_pipeline() {
 
 struct EdgeHandles {
     BufferHandle edges, first, around;
+    BufferHandle tile_draw;  ///< with tiles
+    ShaderInputs views;
 };
 
 void draw_edges(Recorder& r, const SceneHandles& handles, const EdgeHandles& buffers, const LightViews& views,
-                std::size_t view, TextureHandle depth, std::uint32_t count) {
-    const vec4 rect = views.views[view].rect_ts * views.views[view].resolution;
-    r.scissor(static_cast<std::int32_t>(rect.x), static_cast<std::int32_t>(rect.y), static_cast<std::uint32_t>(rect.z),
-              static_cast<std::uint32_t>(rect.w));
-    r.bind(edge_pipeline());
-    set_views(r, views);
+                const ViewPass& view, TextureHandle depth, std::uint32_t count) {
+    if (!views.tiles) {
+        const vec4 rect = views.views[view.index].rect_ts * views.views[view.index].resolution;
+        r.scissor(static_cast<std::int32_t>(rect.x), static_cast<std::int32_t>(rect.y),
+                  static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
+    }
+    r.bind(edge_pipeline(views.tiles));
+    buffers.views.set(r);
     r.set("Positions", handles.positions);
     r.set("Indices", handles.indices);
     r.set("Edges", buffers.edges);
     r.set("First", buffers.first);
     r.set("Around", buffers.around);
     r.set("depth_map", depth);
-    r.push_value(Push{static_cast<int>(view), views.views[view].layer});
-    r.draw(6 * count);
+    r.push_value(Push{static_cast<int>(view.index), static_cast<int>(view.layer)});
+    views.tiles ? r.draw_indirect(buffers.tile_draw) : r.draw(6 * count);
 }
 
 }  // namespace
@@ -233,24 +257,28 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     const TextureHandle nearest_edge = graph.create(desc);
 
     const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input.device, input.scene, input.light());
-    const EdgeHandles buffers{graph.import(edges->edges), graph.import(edges->first), graph.import(edges->around)};
+    const EdgeHandles buffers{graph.import(edges->edges), graph.import(edges->first), graph.import(edges->around),
+                              views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{},
+                              view_inputs(views)};
     const ClearValue middle{.color = vec4(glsl::gn_silhouette_pack(vec2(0.5F)), 0, 0, 0)};
-    std::vector<bool> cleared(views.layers, false);
-    for (std::size_t view = 0; view < views.views.size(); ++view) {
-        const auto layer = static_cast<std::uint32_t>(views.views[view].layer);
-        const Load load = cleared[layer] ? Load::keep : Load::clear;
-        cleared[layer] = true;
+    LightViews drawn = views;
+    drawn.layered = false;
+    for (const ViewPass& view : view_passes(drawn)) {
+        const Load load = view.first_of_layer ? Load::clear : Load::keep;
         graph.add_pass(
             "silhouettes",
             [&](PassBuilder& pass) {
-                pass.color(points, load, middle, one_layer(layer));
-                pass.depth(nearest_edge, load, {.depth = 1.0F}, one_layer(layer));
+                pass.color(points, load, middle, one_layer(view.layer));
+                pass.depth(nearest_edge, load, {.depth = 1.0F}, one_layer(view.layer));
+                if (views.tiles) {
+                    pass.indirect(buffers.tile_draw);
+                }
                 pass.sample(depth);
                 for (const BufferHandle buffer :
                      {input.handles.positions, input.handles.indices, buffers.edges, buffers.first, buffers.around}) {
                     pass.storage_read(buffer);
                 }
-                declare_views(pass, views);
+                buffers.views.declare(pass);
             },
             [edges, buffers, views, view, depth, handles = input.handles](Recorder& r) {
                 if (edges->count > 0) {

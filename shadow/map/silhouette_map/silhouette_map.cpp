@@ -44,8 +44,10 @@ ShadowMap add_silhouette_map(const FrameInput& input, const Recipe& recipe, cons
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
     // Projected edges must be straight.
-    return recipe.placement != nullptr && recipe.placement->id == "paraboloid"
-               ? "map 'silhouette-map' draws straight edges and placement 'paraboloid' bends them; use auto or cube"
+    return recipe.placement != nullptr && recipe.placement->bends
+               ? fmt::format(
+                     "map 'silhouette-map' draws straight edges and placement '{}' bends them; use auto or cube",
+                     recipe.placement->id)
                : "";
 }
 

@@ -25,7 +25,7 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, "moments", raw, params.prefilter);
+    return filtered_map(input, views, "moments", raw, params.prefilter);
 }
 
 Guard guard(const Recipe& recipe, const Light&, const Box&) {

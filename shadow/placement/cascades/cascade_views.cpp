@@ -117,7 +117,6 @@ void set_depth_range(GnLightView& view, const GnLight& light, Interval depth) {
 void complete(GnLightView& view, const GnLight& light, int resolution, Interval depth) {
     view.eye_ws = vec4(vec3(-axis_of(light)), 0);
     view.resolution = static_cast<float>(resolution);
-    view.affine_depth = 1;
     set_depth_range(view, light, depth);
 }
 

@@ -66,13 +66,6 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
         views.views.push_back(tight_view(input, recipe, body, params.fit, near));
     }
 
-    // A layered pass draws all views by one pipeline: where one map is warped, all get their depth from fragments.
-    if (std::any_of(views.views.begin(), views.views.end(), [](const GnLightView& v) { return v.affine_depth == 0; })) {
-        for (GnLightView& view : views.views) {
-            view.affine_depth = 0;
-        }
-    }
-
     // A receiver may be served by a cascade of another slice: then all share one range of depths.
     const ConvexBody all = potential_receivers(input);
     if (params.select == GN_SELECT_PROJECTION && !all.empty()) {
@@ -134,6 +127,8 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     for (std::size_t i = 0; i < views.views.size(); ++i) {
         views.views[i].layer = static_cast<int>(i);
     }
+    // Where one map is warped, all get their depth from fragments.
+    views.kind = kind_of(views.views);
     if (!windows.empty() && input.history != nullptr && (params.scroll != 0 || params.rate > 1)) {
         keep_windows(input, recipe, params, windows, views);
     }

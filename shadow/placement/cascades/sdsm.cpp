@@ -99,6 +99,7 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
     FrameGraph& graph = input.graph;
     const auto count = static_cast<std::size_t>(params.count);
     LightViews views;
+    views.kind = ViewKind::affine;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
     views.layers = static_cast<std::uint32_t>(params.count);
     views.buffer = graph.create({.name = "cascade views", .bytes = count * sizeof(GnLightView)});

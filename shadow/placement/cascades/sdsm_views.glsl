@@ -84,7 +84,6 @@ void main() {
         view.metres_per_depth = metres;
         view.resolution = u.resolution;
         view.layer = i;
-        view.affine_depth = 1;
         view.grid = 0.0;
         view.paraboloid = 0.0;
         views[i] = view;

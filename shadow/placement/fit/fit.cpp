@@ -21,6 +21,7 @@ LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
         body = body_of(Box{vec3(-1), vec3(1)});
     }
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
+        views.kind = ViewKind::affine;
         views.views = {fit_orthographic(body, light, recipe.resolution, guard_of(input, recipe))};
         return views;
     }

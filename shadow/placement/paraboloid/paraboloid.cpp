@@ -24,7 +24,6 @@ GnLightView hemisphere(vec3 eye_ws, vec3 axis_ws, double extent, double far, int
     view.eye_ws = vec4(eye_ws, 1);
     view.metres_per_depth = static_cast<float>(far);
     view.resolution = static_cast<float>(resolution);
-    view.affine_depth = 0;
     view.paraboloid = static_cast<float>(extent);
     return view;
 }
@@ -41,6 +40,7 @@ LightViews place_paraboloid(const FrameInput& input, const Recipe& recipe) {
     const double extent = 1 / (1 - 2 * share) + (guard.metres > 0 ? 0.1 : 0.0);
 
     LightViews views;
+    views.kind = ViewKind::paraboloid;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
     views.views.push_back(hemisphere(eye_ws, axis_ws, extent, far, recipe.resolution));
     const bool all_around = light.kind == GN_LIGHT_POINT;
@@ -66,6 +66,7 @@ const Part& placement_paraboloid() {
         p.title = "Dual paraboloid: a map for each hemisphere";
         p.citation = "BAS02";
         p.lights = {.spot = true, .point = true, .rectangle = true};
+        p.bends = true;
         p.glsl = "shadow/placement/paraboloid/paraboloid.glsl";
         p.place = place_paraboloid;
         return p;

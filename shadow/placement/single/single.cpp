@@ -22,6 +22,7 @@ LightViews place_single(const FrameInput& input, const Recipe& recipe) {
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
         // Cover the scene's box.
         Box box_ws = input.scene.bounds_ws.empty() ? Box{vec3(-1), vec3(1)} : input.scene.bounds_ws;
+        views.kind = ViewKind::affine;
         views.views = {fit_orthographic(body_of(box_ws), light, recipe.resolution, guard_of(input, recipe))};
         return views;
     }

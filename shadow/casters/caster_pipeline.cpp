@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/casters/caster_pipeline.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* vertex_text = R"(
+#include "shadow/casters/tiles.glsl"
+layout(location = 0) in vec3 in_position_ws;
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
+#if defined(GN_FRAGMENT) && !defined(GN_PARABOLOID)
+layout(location = 0) out float out_depth;
+#endif
+#ifdef GN_TILES
+layout(location = 7) flat out int out_view;
+#ifndef GN_PARABOLOID
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
+#endif
+#endif
+#ifdef GN_MASKED
+layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
+layout(binding = 9, scalar) readonly buffer Colors { vec4 colors[]; };
+layout(location = 1) out vec3 out_mask;  // uv, and the alpha of the vertices
+#endif
+void main() {
+#ifdef GN_LAYERED
+    int view = gl_InstanceIndex;
+    gl_Layer = views[view].layer;
+#elif defined(GN_TILES)
+    int view = gl_InstanceIndex;
+    int layer = push.view;
+    out_view = view;
+#else
+    int view = push.view;
+#endif
+    gl_Position = gn_clip(views[view], in_position_ws);
+#ifdef GN_PARABOLOID
+    // The frame of the light in units of depth; w carries the map's extent to the next stage.
+    gl_Position = vec4(gl_Position.xyz / views[view].metres_per_depth, views[view].paraboloid);
+#elif defined(GN_FRAGMENT)
+    out_depth = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
+#endif
+#if defined(GN_TILES) && defined(GN_PARABOLOID)
+    // A map without extent shows nothing.
+    gl_Position.w = gn_tile_in(views[view], layer) ? gl_Position.w : 0.0;
+#elif defined(GN_TILES)
+    vec4 sides = gn_tile_sides(views[view], gl_Position, layer);
+    gl_ClipDistance[0] = sides.x;
+    gl_ClipDistance[1] = sides.y;
+    gl_ClipDistance[2] = sides.z;
+    gl_ClipDistance[3] = sides.w;
+    gl_Position = gn_tile_clip(views[view], gl_Position);
+#endif
+#ifdef GN_MASKED
+    out_mask = vec3(uvs[gl_VertexIndex], colors[min(gl_VertexIndex, colors.length() - 1)].a);
+#endif
+}
+)";
+
+// A triangle's edges are curved on a paraboloid. Its bounding rectangle is drawn, and every texel's ray meets the triangle
+// itself: exact for triangles of any size, without subdividing them.
+constexpr const char* paraboloid_text = R"(
+#include "shadow/casters/tiles.glsl"
+#include "shadow/receiver/paraboloid.glsl"
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 4) out;
+layout(location = 0) out vec2 out_u;
+layout(location = 1) flat out vec3 out_a;
+layout(location = 2) flat out vec3 out_b;
+layout(location = 3) flat out vec3 out_c;
+#ifdef GN_MASKED
+layout(location = 1) in vec3 in_mask[];
+layout(location = 4) flat out vec3 out_mask_a;
+layout(location = 5) flat out vec3 out_mask_b;
+layout(location = 6) flat out vec3 out_mask_c;
+#endif
+#ifdef GN_TILES
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(location = 7) flat in int in_view[];
+layout(location = 7) flat out int out_view;
+#endif
+void main() {
+    vec3 a = gl_in[0].gl_Position.xyz;
+    vec3 b = gl_in[1].gl_Position.xyz;
+    vec3 c = gl_in[2].gl_Position.xyz;
+    float extent = gl_in[0].gl_Position.w;
+    vec4 box = gn_paraboloid_bounds(a, b, c, extent);
+    float facing = dot(a, cross(b - a, c - a));
+    if (extent <= 0.0 || box.x >= box.z || box.y >= box.w || facing == 0.0) {
+        return;
+    }
+    // The rectangle winds as the triangle does, seen from the light.
+    for (int i = 0; i < 4; ++i) {
+        bool right = facing < 0.0 ? i >= 2 : (i & 1) != 0;
+        bool below = facing < 0.0 ? (i & 1) != 0 : i >= 2;
+        out_u = vec2(right ? box.z : box.x, below ? box.w : box.y);
+        out_a = a;
+        out_b = b;
+        out_c = c;
+#ifdef GN_MASKED
+        out_mask_a = in_mask[0];
+        out_mask_b = in_mask[1];
+        out_mask_c = in_mask[2];
+#endif
+        gl_Position = vec4(out_u / extent, 0.5, 1.0);
+#ifdef GN_TILES
+        out_view = in_view[0];
+        gl_Position = gn_tile_clip(views[out_view], gl_Position);
+#endif
+        EmitVertex();
+    }
+    EndPrimitive();
+}
+)";
+
+/// Bindings of the blocks and textures that every caster shader reads; a map's own come after them.
+constexpr unsigned caster_bindings = 3;
+
+constexpr const char* fragment_head = R"(
+#include "shadow/light_view.h"
+#include "shadow/receiver/paraboloid.glsl"
+layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
+#ifdef GN_MASKED
+layout(binding = 2) uniform sampler2D base_color_texture;
+#endif
+#ifdef GN_PARABOLOID
+layout(location = 0) in vec2 in_u;
+layout(location = 1) flat in vec3 in_a;
+layout(location = 2) flat in vec3 in_b;
+layout(location = 3) flat in vec3 in_c;
+#ifdef GN_MASKED
+layout(location = 4) flat in vec3 in_mask_a;
+layout(location = 5) flat in vec3 in_mask_b;
+layout(location = 6) flat in vec3 in_mask_c;
+#endif
+#else
+layout(location = 0) in float in_depth;
+#ifdef GN_MASKED
+layout(location = 1) in vec3 in_mask;
+#endif
+#endif
+// Which view is drawn.
+#if defined(GN_TILES)
+layout(location = 7) flat in int caster_view;
+#elif defined(GN_LAYERED)
+#define caster_view gl_Layer
+#else
+#define caster_view push.view
+#endif
+)";
+
+constexpr const char* fragment_main = R"(
+void main() {
+    // Before anything is discarded, while all neighbours are there, take the slope of the triangle's plane.
+#ifdef GN_PARABOLOID
+    vec2 change = gn_paraboloid_slope(in_u, in_a, in_b, in_c);
+    vec2 slope = vec2(dot(change, dFdx(in_u)), dot(change, dFdy(in_u)));
+    vec4 hit = gn_paraboloid_hit(in_u, in_a, in_b, in_c);
+    if (hit.w < 0.0) {
+        discard;
+    }
+    float in_depth = hit.w;
+#ifdef GN_MASKED
+    vec3 in_mask = hit.x * in_mask_a + hit.y * in_mask_b + hit.z * in_mask_c;
+#endif
+#else
+    vec2 slope = vec2(dFdx(in_depth), dFdy(in_depth));
+#endif
+#ifdef GN_MASKED
+    if (textureLod(base_color_texture, in_mask.xy, 0.0).a * push.base_alpha * in_mask.z < push.alpha_cutoff) {
+        discard;
+    }
+#endif
+    // What is clamped lies flat on the near plane.
+    float depth = clamp(in_depth, 0.0, 1.0);
+    slope = depth == in_depth ? slope : vec2(0.0);
+#ifdef GN_WRITE_DEPTH
+    gl_FragDepth = depth;
+#ifdef GN_PUSHED
+    gl_FragDepth = min(depth + 4.0 / 16777216.0, 1.0);
+#endif
+#endif
+)";
+
+}  // namespace
+
+RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant) {
+    const bool write_depth = variant.kind != ViewKind::affine;
+    const bool paraboloid = variant.kind == ViewKind::paraboloid;
+    const bool needs_fragment = variant.masked || write_depth || !pass.fragment.body.empty();
+    std::string defines;
+    defines += needs_fragment ? "#define GN_FRAGMENT\n" : "";
+    defines += variant.masked ? "#define GN_MASKED\n" : "";
+    defines += write_depth ? "#define GN_WRITE_DEPTH\n" : "";
+    defines += variant.layered ? "#define GN_LAYERED\n" : "";
+    defines += variant.tiles ? "#define GN_TILES\n" : "";
+    defines += paraboloid ? "#define GN_PARABOLOID\n" : "";
+    defines += variant.faces.pushed ? "#define GN_PUSHED\n" : "";
+
+    RasterDesc desc;
+    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + vertex_text};
+    if (paraboloid) {
+        desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + paraboloid_text};
+    }
+    if (needs_fragment) {
+        desc.fragment =
+            ShaderSource{ShaderKind::fragment, pass.name + ".frag",
+                         defines + pass.fragment.includes + fragment_head + pass.fragment.inputs.text(caster_bindings) +
+                             fragment_main + pass.fragment.body + "\n}\n"};
+    }
+    desc.cull = variant.faces.culled;
+    desc.depth_bias = variant.faces.pushed;
+    desc.color_mask = variant.faces.depth_only ? 0 : 0xF;
+    desc.depth_test = desc.depth_write = desc.depth_clamp = true;
+    desc.depth_compare = VK_COMPARE_OP_LESS;
+    desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
+    desc.vertex_stride = sizeof(vec3);
+    return desc;
+}
+
+}  // namespace gn

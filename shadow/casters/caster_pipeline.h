@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The shaders that draw casters into light views, composed for what a pass draws.
+#pragma once
+
+#include "shadow/casters/caster_draw.h"
+
+namespace gn {
+
+struct CasterVariant {
+    bool masked = false;
+    ViewKind kind = ViewKind::perspective;
+    bool layered = false, tiles = false;
+    CasterFaces faces;
+};
+
+struct CasterPush {
+    int view;
+    float base_alpha, alpha_cutoff;
+    int object;
+};
+
+/// How far faces that must lose ties are pushed: units of the depth's last place at the farthest corner, and pixels of the
+/// rasterizer's grid, four each as in the view's samples.
+inline constexpr float push_units = 4;
+inline constexpr float push_pixels = 4.0F / 256;
+
+/// A fragment stage stands only where depth is not affine, alpha is tested or the map asks.
+RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant);
+
+}  // namespace gn
