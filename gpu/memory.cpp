@@ -19,6 +19,23 @@ bool has_stencil(VkFormat format) {
     return format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
 }
 
+int channels_of(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_D32_SFLOAT:
+        case VK_FORMAT_D16_UNORM:
+        case VK_FORMAT_D32_SFLOAT_S8_UINT:
+        case VK_FORMAT_R8_UNORM:
+        case VK_FORMAT_R16_UNORM:
+        case VK_FORMAT_R16_SFLOAT:
+        case VK_FORMAT_R32_SFLOAT: return 1;
+        case VK_FORMAT_R8G8_UNORM:
+        case VK_FORMAT_R16G16_UNORM:
+        case VK_FORMAT_R16G16_SFLOAT:
+        case VK_FORMAT_R32G32_SFLOAT: return 2;
+        default: return 4;
+    }
+}
+
 VkImageAspectFlags aspects_of(VkFormat format) {
     if (!is_depth(format)) {
         return VK_IMAGE_ASPECT_COLOR_BIT;

@@ -33,6 +33,8 @@ bool is_depth(VkFormat format);
 bool has_stencil(VkFormat format);
 /// Bytes of one texel; of a depth-stencil format's depth alone, as a download delivers it. Throws Error if unknown.
 VkDeviceSize format_bytes(VkFormat format);
+/// Components that a texel of the format has: 1, 2 or 4.
+int channels_of(VkFormat format);
 VkImageAspectFlags aspects_of(VkFormat format);
 
 class Buffer {

@@ -24,7 +24,7 @@ Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
         const LightViews views = place_views(input, recipe);
         ShadowMap map = recipe.map->add_map(input, recipe, views);
         map.part = recipe.map;
-        add_derived(input.graph, *recipe.lookup, map);
+        add_derived(input, recipe, views, map);
         check_map_memory(input, recipe, map.texture());
         visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
                                                           : add_resolve(input, recipe, views, map);
@@ -50,7 +50,7 @@ struct BuiltFrame {
 };
 
 BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
-                 const FrameOptions& options, std::vector<std::string>& refused) {
+                 const FrameOptions& options, std::vector<std::string>& refused, std::set<std::string>& late_remarks) {
     BuiltFrame frame;
 
     // View samples.
@@ -66,8 +66,8 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
         if (!wanted(options, i)) {
             continue;
         }
-        const FrameInput input{graph.device(),          graph, *scene.scene,   handles, frame.samples,
-                               &scene.scene->lights[i], i,     options.history};
+        const FrameInput input{graph.device(),          graph, *scene.scene,    handles,      frame.samples,
+                               &scene.scene->lights[i], i,     options.history, &late_remarks};
         try {
             frame.visibility.back() = add_shadow(input, recipe).image;
             graph.keep(frame.visibility.back());
@@ -130,7 +130,8 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
     FrameGraph graph(device);
     FrameResult result;
     result.remarks = remarks_of(recipe, *scene.scene);
-    const BuiltFrame frame = build(graph, scene, camera, recipe, options, result.refused);
+    std::set<std::string> late_remarks;
+    const BuiltFrame frame = build(graph, scene, camera, recipe, options, result.refused, late_remarks);
 
     // The first run pays for shader compilation; the repeats are timed.
     try {
@@ -143,6 +144,7 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
         record_times(graph.statistics(), result);
     }
     finish_times(graph.statistics(), result);
+    result.remarks.insert(result.remarks.end(), late_remarks.begin(), late_remarks.end());
 
     // Read back what the metrics and the report need.
     result.samples = read_samples(graph, frame.samples);

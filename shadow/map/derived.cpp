@@ -2,10 +2,7 @@
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #include "shadow/map/derived.h"
 
-#include "shadow/recipe/part.h"
-
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace gn {
@@ -38,6 +35,9 @@ layout(location = 0) out vec4 result;
             r.draw(3);
         });
 }
+
+constexpr const char* copy_text =
+    "void main() { result = texelFetch(source, ivec3(gl_FragCoord.xy, push.layer), 0); }\n";
 
 constexpr const char* first_text = R"(
 void main() {
@@ -121,9 +121,7 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
     const std::uint32_t levels = n_buffer_levels(std::max(desc.width, desc.height), most_levels);
     desc.layers = layers * levels;
     const TextureHandle buffer = graph.create(desc);
-    const char* const first =
-        kind == NBuffer::mean ? "void main() { result = texelFetch(source, ivec3(gl_FragCoord.xy, push.layer), 0); }\n"
-                              : first_text;
+    const char* const first = kind == NBuffer::mean ? copy_text : first_text;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t base = layer * levels;
         add_step(graph, source, buffer, {"n-buffer", first, one_layer(layer), one_layer(base)});
@@ -139,40 +137,34 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
     return buffer;
 }
 
-std::span<const Derivation> derivations() {
-    static constexpr std::array<Derivation, 3> all{{
-        {"min-max", "depth", "A pyramid of least and greatest depths.", add_min_max_pyramid},
-        {"n-buffers", "depth", "Least and greatest depths of any square of 2^l texels.",
-         [](FrameGraph& graph, TextureHandle depth) { return add_n_buffer(graph, depth, NBuffer::min_max); }},
-        {"mean-n-buffers", "moments", "Means of any square of 2^l texels.",
-         [](FrameGraph& graph, TextureHandle moments) { return add_n_buffer(graph, moments, NBuffer::mean); }},
-    }};
-    return all;
-}
-
-namespace {
-
-const Derivation* derivation_of(std::string_view name) {
-    const auto all = derivations();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Derivation& d) { return d.name == name; });
-    return found != all.end() ? &*found : nullptr;
-}
-
-}  // namespace
-
-bool map_gives(const Part& map, std::string_view need) {
-    const Derivation* derived = derivation_of(need);
-    return holds(map.gives, need) || (derived != nullptr && holds(map.gives, derived->from));
-}
-
-void add_derived(FrameGraph& graph, const Part& lookup, ShadowMap& map) {
-    for (const std::string_view need : lookup.needs) {
-        const Derivation* derived = derivation_of(need);
-        const Offer* from = derived != nullptr ? map.find(derived->from) : nullptr;
-        if (from != nullptr && map.find(need) == nullptr) {
-            map.offers.push_back({std::string(need), derived->add(graph, from->texture), nearest()});
-        }
+void add_mips(FrameGraph& graph, TextureHandle texture) {
+    const std::uint32_t mips = graph.desc(texture).mips;
+    for (std::uint32_t mip = 1; mip < mips; ++mip) {
+        graph.add_pass(
+            "mip",
+            [&](PassBuilder& pass) {
+                pass.copy_from(texture, one_mip(mip - 1));
+                pass.copy_to(texture, one_mip(mip));
+            },
+            [texture, mip](Recorder& r) {
+                r.blit(texture, one_mip(mip - 1), texture, one_mip(mip), VK_FILTER_LINEAR);
+            });
     }
+}
+
+TextureHandle add_mipmapped(FrameGraph& graph, TextureHandle source) {
+    TextureDesc desc = graph.desc(source);
+    GN_CHECK_EQ(desc.samples, 1U);
+    desc.name = "map mipmapped";
+    desc.format = is_depth(desc.format) ? VK_FORMAT_R32_SFLOAT : desc.format;
+    desc.mips = static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)));
+    desc.usage = 0;
+    const TextureHandle copy = graph.create(desc);
+    for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
+        add_step(graph, source, copy, {"mipmapped", copy_text, one_layer(layer), one_layer(layer)});
+    }
+    add_mips(graph, copy);
+    return copy;
 }
 
 }  // namespace gn

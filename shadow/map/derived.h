@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What is made of a map's depth for those who ask for ranges of it: a pyramid of least and greatest depths, and N-buffers,
-// which answer for any square of 2^l texels and not only for aligned ones. The readers are in derived.glsl.
+// What is made of a map for those who ask for it by name. A pyramid of least and greatest depths, and N-buffers, which
+// answer for any square of 2^l texels and not only for aligned ones: the readers are in derived.glsl. Sums over rectangles:
+// sums.glsl. Mips. The surfaces one behind the other: shadow/casters/peel.h.
 //
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #pragma once
 
+#include "shadow/recipe/recipe.h"
 #include "shadow/stages.h"
 
 namespace gn {
@@ -23,18 +25,34 @@ enum class NBuffer {
 /// at most `most_levels`. Throws Error where the device has too few layers.
 TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels = 16);
 
+/// Fills the mips of every layer by halving boxes; the device must filter the format.
+void add_mips(FrameGraph& graph, TextureHandle texture);
+/// A copy of the source's first level, in its own format (R32F of a depth) with all mips, filled by add_mips.
+TextureHandle add_mipmapped(FrameGraph& graph, TextureHandle source);
+
+/// What a derivation is made of.
+struct DerivedFrom {
+    const FrameInput& input;
+    const Recipe& recipe;
+    const LightViews& views;
+    TextureHandle source;
+    int count = 0;
+};
 /// What can be made of a texture that a map gives, for lookups that name it in `needs`.
 struct Derivation {
     std::string_view name;      ///< "min-max"
     std::string_view from;      ///< "depth"
     std::string_view contents;  ///< one sentence
-    TextureHandle (*add)(FrameGraph&, TextureHandle);
+    int most = 0;               ///< above 0: lookups ask for up to so many, "peeled-4"
+    bool filters = false;       ///< needs a device that filters the source's format
+    TextureHandle (*add)(const DerivedFrom&) = nullptr;
 };
 std::span<const Derivation> derivations();
 /// Whether a map part gives what a lookup names, itself or derived.
 bool map_gives(const Part& map, std::string_view need);
-/// Adds to the map's offers what the lookup needs and the map does not give itself: once, however many read it.
-void add_derived(FrameGraph& graph, const Part& lookup, ShadowMap& map);
+/// Adds to the map's offers what the recipe's lookup needs and the map does not give itself: once, however many read it.
+/// Throws Refusal where the device cannot make it.
+void add_derived(const FrameInput& input, const Recipe& recipe, const LightViews& views, ShadowMap& map);
 
 /// Levels that add_n_buffer makes for a map of this side.
 std::uint32_t n_buffer_levels(std::uint32_t side, std::uint32_t most_levels = 16);

@@ -2,9 +2,12 @@
 // Pyramids and N-buffers against a walk over the texels: exact where they promise it, never too narrow elsewhere.
 #include "shadow/map/derived.h"
 
+#include "gpu/shader_inputs.h"
 #include "shadow/map/derived.glsl"
+#include "shadow/map/sums.h"
 #include "tests/rig.h"
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -42,10 +45,10 @@ struct Source {
         }
         return range;
     }
-    /// The source in a graph, filled from a buffer by a fragment pass a layer.
-    TextureHandle draw(FrameGraph& graph) {
-        const TextureHandle target = graph.create(
-            {.name = "source", .format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height, .layers = 2});
+    /// The source in a graph, filled from a buffer by a fragment pass a layer; further components are the powers of the first.
+    TextureHandle draw(FrameGraph& graph, VkFormat format = VK_FORMAT_R32_SFLOAT) {
+        const TextureHandle target =
+            graph.create({.name = "source", .format = format, .width = width, .height = height, .layers = 2});
         for (std::uint32_t layer = 0; layer < 2; ++layer) {
             const std::size_t texels = std::size_t{width} * height;
             std::vector<float> part(values.begin() + static_cast<std::ptrdiff_t>(layer * texels),
@@ -57,7 +60,10 @@ struct Source {
 layout(binding = 0, scalar) readonly buffer Values { float v[]; } values;
 layout(push_constant) uniform Push { int width; } push;
 layout(location = 0) out vec4 result;
-void main() { result = vec4(values.v[int(gl_FragCoord.y) * push.width + int(gl_FragCoord.x)]); }
+void main() {
+    float v = values.v[int(gl_FragCoord.y) * push.width + int(gl_FragCoord.x)];
+    result = vec4(v, v * v, v * v * v, v * v * v * v);
+}
 )"}));
                     r.set_bytes("values", std::as_bytes(std::span(part)));
                     r.push_value(w);
@@ -72,6 +78,12 @@ std::vector<vec2> pairs_of(const std::vector<std::byte>& bytes) {
     std::vector<vec2> pairs(bytes.size() / sizeof(vec2));
     std::memcpy(pairs.data(), bytes.data(), bytes.size());
     return pairs;
+}
+
+std::vector<float> floats_of(const std::vector<std::byte>& bytes) {
+    std::vector<float> values(bytes.size() / sizeof(float));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
 }
 
 TEST(Derived, EveryLevelOfThePyramidHoldsTheRangeUnderItsTexels) {
@@ -140,6 +152,92 @@ TEST(Derived, AnNBufferAnswersForEverySquare) {
                     sum += static_cast<double>(source.at(x + i % 4, y + i / 4, layer));
                 }
                 EXPECT_NEAR(read[static_cast<std::size_t>(y * 19 + x)], sum / 16, 4 * 6e-8);
+            }
+        }
+    }
+}
+
+TEST(Derived, MipsAreTheMeansOfTheirTexels) {
+    const test::ValidationGuard guard;
+    Source source(32, 32);
+    FrameGraph graph(test::device());
+    const TextureHandle mipmapped = add_mipmapped(graph, source.draw(graph));
+    graph.keep(mipmapped);
+    graph.execute(false);
+    ASSERT_EQ(graph.desc(mipmapped).mips, 6U);
+    for (std::uint32_t layer = 0; layer < 2; ++layer) {
+        for (int mip = 0; mip < 6; ++mip) {
+            const std::vector<float> level =
+                floats_of(graph.download(mipmapped, static_cast<std::uint32_t>(mip), layer));
+            const int texels = 32 >> mip;
+            for (int i = 0; i < texels * texels; ++i) {
+                double sum = 0;
+                for (int j = 0; j < 1 << (2 * mip); ++j) {
+                    sum += static_cast<double>(
+                        source.at((i % texels << mip) + j % (1 << mip), (i / texels << mip) + (j >> mip), layer));
+                }
+                // Each level rounds once.
+                EXPECT_NEAR(level[static_cast<std::size_t>(i)], sum / (1 << (2 * mip)), (mip + 1) * 6e-8)
+                    << "mip " << mip << " texel " << i;
+            }
+        }
+    }
+}
+
+TEST(Derived, SumsAnswerWithTheMeanOfAnyRectangle) {
+    const test::ValidationGuard guard;
+    constexpr int rectangles = 100;
+    Source source(24, 24);
+    std::mt19937 random(3);
+    std::vector<ivec4> asked;
+    for (int i = 0; i < rectangles; ++i) {
+        const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        const ivec2 first(i == 0 ? ivec2(0) : ivec2(pick(0, 23), pick(0, 23)));
+        asked.emplace_back(first, i == 0 ? ivec2(24) : ivec2(pick(first.x + 1, 24), pick(first.y + 1, 24)));
+    }
+    for (const VkFormat format : {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+        FrameGraph graph(test::device());
+        const TextureHandle sums = add_sat(graph, source.draw(graph, format), {.table = GN_SAT_FLOAT32});
+        const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec4)});
+        graph.keep(answers);
+        ShaderInputs inputs;
+        inputs.texture("sampler2DArray", "sums", sums);
+        inputs.block("readonly buffer", "Asked", "ivec4 rectangles[];", std::as_bytes(std::span(asked)));
+        inputs.buffer("writeonly buffer", "Answers", "vec4 means[];", answers);
+        const std::string text = "#include \"shadow/map/sums.glsl\"\n" + inputs.text() + R"(
+layout(local_size_x = 64) in;
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < rectangles.length()) {
+        means[i] = gn_sat_mean(sums, GN_SAT_FLOAT32, 0, 1, rectangles[i].xz, rectangles[i].yw);
+    }
+}
+)";
+        graph.add_pass(
+            "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
+            [&](Recorder& r) {
+                r.bind(ComputeDesc{{ShaderKind::compute, "ask", text}, {}});
+                inputs.set(r);
+                r.dispatch((rectangles + 63) / 64, 1);
+            });
+        graph.execute(false);
+        const std::vector<float> means = floats_of(graph.download(answers));
+        for (std::size_t i = 0; i < rectangles; ++i) {
+            const ivec4 r = asked[i];
+            std::array<double, 4> sum{};
+            for (int y = r.y; y < r.w; ++y) {
+                for (int x = r.x; x < r.z; ++x) {
+                    const double v = source.at(x, y, 1);
+                    for (int power = 0; power < 4; ++power) {
+                        sum.at(static_cast<std::size_t>(power)) += std::pow(v, power + 1);
+                    }
+                }
+            }
+            const double area = static_cast<double>(r.z - r.x) * (r.w - r.y);
+            const std::size_t components = format == VK_FORMAT_R32G32_SFLOAT ? 2 : 4;
+            for (std::size_t c = 0; c < components; ++c) {
+                // Four corners of sums up to 576 x 0.5, each rounded once a row of it.
+                EXPECT_NEAR(means[4 * i + c], sum.at(c) / area, 4 * 24 * 3e-5 / area) << i << " component " << c;
             }
         }
     }

@@ -3,11 +3,10 @@
 //
 // Based on: Lauritzen. Summed-Area Variance Shadow Maps. GPU Gems 3, 2007. [Lau07]
 // Stands on: shadow/map/vsm (moments, Chebyshev's bound and the reduction of bleeding)
-// Also here: sat_scan.h, sat_scan.cpp
 #include "shadow/map/sat_vsm/sat_vsm.h"
 
 #include "shadow/map/prefilter.h"
-#include "shadow/map/sat_vsm/sat_scan.h"
+#include "shadow/map/sums.h"
 
 namespace gn {
 namespace {

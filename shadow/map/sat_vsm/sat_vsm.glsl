@@ -6,34 +6,12 @@
 #define GN_SHADOW_MAP_SAT_VSM_GLSL
 
 #include "shadow/map/sat_vsm/sat_vsm.h"
+#include "shadow/map/sums.glsl"
 #include "shadow/map/vsm/vsm.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
 #endif
-
-// Steps of a moment in an integer table. Sums may wrap around; a box's difference is right as long as the box's own
-// sum is below 2^32, which bounds the steps by the largest box. Rounding a float to the nearest step needs one of its 24 bits.
-GN_FN float gn_sat_levels(int max_box) {
-    return float(min(0xffffffffu / uint(max_box * max_box), 0x7fffffu));
-}
-
-GN_FN uvec2 gn_sat_quantize(vec2 moments, float levels) {
-    return uvec2(uint(clamp(moments.x, 0.0f, 1.0f) * levels + 0.5f), uint(clamp(moments.y, 0.0f, 1.0f) * levels + 0.5f));
-}
-
-// A float table sums differences from these, which keeps the sums, and so their rounding, small. [Lau07] 8.4.1
-GN_FN vec2 gn_sat_centre() { return vec2(0.5f, 0.375f); }
-
-// A pair of 32-bit integers in four 16-bit shares of one.
-GN_FN vec4 gn_sat_pack(uvec2 sums) {
-    return vec4(float(sums.x >> 16u), float(sums.x & 65535u), float(sums.y >> 16u), float(sums.y & 65535u)) / 65535.0f;
-}
-
-GN_FN uvec2 gn_sat_unpack(vec4 packed) {
-    vec4 halves = packed * 65535.0f + 0.5f;
-    return uvec2(uint(halves.x) * 65536u + uint(halves.y), uint(halves.z) * 65536u + uint(halves.w));
-}
 
 // Along one axis: a box of `size` texels, its first texel, and how far the receiver lies towards the next box.
 struct GnSatSpan {
@@ -62,25 +40,6 @@ GN_FN ivec2 gn_sat_cut(GnSatSpan span, int offset, int low, int high) {
 }  // namespace gn::glsl
 #else
 
-// Sum of all texels before `corner`.
-vec4 gn_sat_fetch(sampler2DArray table, ivec2 corner, int layer) {
-    return min(corner.x, corner.y) == 0 ? vec4(0.0) : texelFetch(table, ivec3(corner - 1, layer), 0);
-}
-
-// Mean moments of the texels [x.x, x.y) by [y.x, y.y): four corners of the table.
-vec2 gn_sat_mean(sampler2DArray table, int layer, ivec2 x, ivec2 y, GnSatVsmParams params) {
-    vec4 a = gn_sat_fetch(table, ivec2(x.y, y.y), layer);
-    vec4 b = gn_sat_fetch(table, ivec2(x.x, y.y), layer);
-    vec4 c = gn_sat_fetch(table, ivec2(x.y, y.x), layer);
-    vec4 d = gn_sat_fetch(table, ivec2(x.x, y.x), layer);
-    float area = float((x.y - x.x) * (y.y - y.x));
-    if (params.table == GN_SAT_FLOAT32) {
-        return (a.xy - b.xy - c.xy + d.xy) / area + gn_sat_centre();
-    }
-    uvec2 sum = gn_sat_unpack(a) - gn_sat_unpack(b) - gn_sat_unpack(c) + gn_sat_unpack(d);
-    return vec2(sum) / (area * gn_sat_levels(params.max_box));
-}
-
 float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
     GnProjected projected = at.projected;
     // The box that holds the footprint, at least the kernel asked for.
@@ -95,8 +54,8 @@ float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 
     for (int y = 0; y < 2; ++y) {
         for (int x = 0; x < 2; ++x) {
             float weight = (x == 0 ? 1.0 - u.weight : u.weight) * (y == 0 ? 1.0 - v.weight : v.weight);
-            moments += weight * gn_sat_mean(sums, projected.layer, gn_sat_cut(u, x, bounds.x, bounds.z),
-                                            gn_sat_cut(v, y, bounds.y, bounds.w), params);
+            moments += weight * gn_sat_mean(sums, params.table, params.max_box, projected.layer,
+                                            gn_sat_cut(u, x, bounds.x, bounds.z), gn_sat_cut(v, y, bounds.y, bounds.w)).xy;
         }
     }
     float deviation = gn_vsm_deviation(projected, params.min_deviation);

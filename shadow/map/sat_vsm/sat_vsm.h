@@ -4,13 +4,8 @@
 #define GN_SHADOW_MAP_SAT_VSM_H
 
 #include "base/shared.h"
+#include "shadow/map/sums_params.h"
 #include "shadow/map/vsm/vsm.h"
-
-#define GN_SAT_FLOAT32 0
-#define GN_SAT_UINT32 1
-#define GN_SAT_SCAN_AUTO 0
-#define GN_SAT_SCAN_SERIAL 1
-#define GN_SAT_SCAN_SHARED 2
 
 struct GnSatVsmParams {
     int table GN_DEFAULT(GN_SAT_UINT32);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/map/sat_vsm/sat_vsm.glsl"
 
-#include "shadow/map/sat_vsm/sat_scan.h"
+#include "shadow/map/sums.h"
 #include "tests/rig.h"
 
 #include <cstring>
@@ -151,7 +151,7 @@ TEST(SatVsmRendered, EveryBoxOfAFloatTableIsRightToTheRoundingOfItsCorners) {
             glm::dvec2 direct(0);
             for (std::uint32_t y = b.y0; y < b.y1; ++y) {
                 for (std::uint32_t x = b.x0; x < b.x1; ++x) {
-                    direct += glm::dvec2(summed.at(x, y, b.layer) - gn_sat_centre());
+                    direct += glm::dvec2(summed.at(x, y, b.layer) - vec2(gn_sat_centre()));
                 }
             }
             const glm::dvec2 box =

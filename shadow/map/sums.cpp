@@ -3,37 +3,43 @@
 //
 // Based on: Lauritzen. Summed-Area Variance Shadow Maps. GPU Gems 3, 2007. [Lau07]
 // Departs from it: compute shaders scan a line in one pass, one invocation a line or one workgroup a line.
-#include "shadow/map/sat_vsm/sat_scan.h"
+#include "shadow/map/sums.h"
 
-#include "shadow/map/sat_vsm/sat_vsm.glsl"
+#include "shadow/map/sums.glsl"
 
 namespace gn {
 namespace {
 
 constexpr const char* head = R"(
-#include "shadow/map/sat_vsm/sat_vsm.glsl"
+#include "shadow/map/sums.glsl"
 layout(push_constant) uniform Push { float levels; };
 #ifdef GN_INTEGER
 #define GN_SUM uvec2
+#elif defined(GN_FOUR)
+#define GN_SUM vec4
+#define GN_STORED rgba32f
+#define GN_TEXEL(sum) sum
 #else
 #define GN_SUM vec2
+#define GN_STORED rg32f
+#define GN_TEXEL(sum) vec4(sum, 0.0, 0.0)
 #endif
 #ifdef GN_ROWS
 layout(binding = 0) uniform sampler2DArray source;
 GN_SUM load(int line, int i, int layer) {
-    vec2 moments = texelFetch(source, ivec3(i, line, layer), 0).xy;
+    vec4 texel = texelFetch(source, ivec3(i, line, layer), 0);
 #ifdef GN_INTEGER
-    return gn_sat_quantize(moments, levels);
+    return gn_sat_quantize(texel.xy, levels);
 #else
-    return moments - gn_sat_centre();
+    return GN_SUM(texel - gn_sat_centre());
 #endif
 }
 #ifdef GN_INTEGER
 layout(binding = 1, rg32ui) uniform writeonly uimage2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), uvec4(sum, 0u, 0u)); }
 #else
-layout(binding = 1, rg32f) uniform writeonly image2DArray target;
-void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), vec4(sum, 0.0, 0.0)); }
+layout(binding = 1, GN_STORED) uniform writeonly image2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), GN_TEXEL(sum)); }
 #endif
 #else
 #ifdef GN_INTEGER
@@ -42,10 +48,10 @@ layout(binding = 1, rgba16) uniform writeonly image2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), gn_sat_pack(sum)); }
 #else
 layout(binding = 0) uniform sampler2DArray source;
-layout(binding = 1, rg32f) uniform writeonly image2DArray target;
-void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), vec4(sum, 0.0, 0.0)); }
+layout(binding = 1, GN_STORED) uniform writeonly image2DArray target;
+void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), GN_TEXEL(sum)); }
 #endif
-GN_SUM load(int line, int i, int layer) { return texelFetch(source, ivec3(line, i, layer), 0).xy; }
+GN_SUM load(int line, int i, int layer) { return GN_SUM(texelFetch(source, ivec3(line, i, layer), 0)); }
 #endif
 )";
 
@@ -100,7 +106,7 @@ void main() {
 
 struct Scan {
     const char* name;
-    bool rows, integer, in_shared_memory;
+    bool rows, integer, four, in_shared_memory;
     float levels;
 };
 
@@ -108,6 +114,7 @@ void add_scan(FrameGraph& graph, TextureHandle source, TextureHandle target, con
     std::string text;
     text += scan.rows ? "#define GN_ROWS\n" : "";
     text += scan.integer ? "#define GN_INTEGER\n" : "";
+    text += scan.four ? "#define GN_FOUR\n" : "";
     text += head;
     text += scan.in_shared_memory ? shared_memory : serial;
     graph.add_pass(
@@ -128,24 +135,26 @@ void add_scan(FrameGraph& graph, TextureHandle source, TextureHandle target, con
 
 }  // namespace
 
-TextureHandle add_sat(FrameGraph& graph, TextureHandle moments, const SatTable& options) {
+TextureHandle add_sat(FrameGraph& graph, TextureHandle source, const SatTable& options) {
     const bool integer = options.table == GN_SAT_UINT32;
     const bool in_shared_memory =
         options.scan == GN_SAT_SCAN_SHARED || (options.scan == GN_SAT_SCAN_AUTO && !graph.device().info().cpu);
     const float levels = glsl::gn_sat_levels(options.max_box);
-    GN_CHECK_EQ(graph.desc(moments).width, graph.desc(moments).height);
+    TextureDesc desc = graph.desc(source);
+    GN_CHECK_EQ(desc.width, desc.height);
+    const bool four = !integer && channels_of(desc.format) == 4;
+    const VkFormat floats = four ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_SFLOAT;
 
-    TextureDesc desc = graph.desc(moments);
     desc.mips = 1;
     desc.usage = 0;
     desc.name = "map summed along rows";
-    desc.format = integer ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32_SFLOAT;
+    desc.format = integer ? VK_FORMAT_R32G32_UINT : floats;
     const TextureHandle rows = graph.create(desc);
     desc.name = "map summed";
-    desc.format = integer ? VK_FORMAT_R16G16B16A16_UNORM : VK_FORMAT_R32G32_SFLOAT;
+    desc.format = integer ? VK_FORMAT_R16G16B16A16_UNORM : floats;
     const TextureHandle table = graph.create(desc);
-    add_scan(graph, moments, rows, {"sum rows", true, integer, in_shared_memory, levels});
-    add_scan(graph, rows, table, {"sum columns", false, integer, in_shared_memory, levels});
+    add_scan(graph, source, rows, {"sum rows", true, integer, four, in_shared_memory, levels});
+    add_scan(graph, rows, table, {"sum columns", false, integer, four, in_shared_memory, levels});
     return table;
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The names by which lookups ask for what is made of a map.
+#include "shadow/casters/peel.h"
+#include "shadow/map/derived.h"
+#include "shadow/map/sums.h"
+#include "shadow/recipe/part.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace gn {
+namespace {
+
+TextureHandle add_sums(const DerivedFrom& from) {
+    return add_sat(from.input.graph, from.source, {.table = GN_SAT_FLOAT32});
+}
+
+TextureHandle add_all_mips(const DerivedFrom& from) {
+    return add_mipmapped(from.input.graph, from.source);
+}
+
+constexpr std::array<Derivation, 8> all_derivations{{
+    {"min-max", "depth", "A pyramid of least and greatest depths.", 0, false,
+     [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source); }},
+    {"n-buffers", "depth", "Least and greatest depths of any square of 2^l texels.", 0, false,
+     [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, from.source, NBuffer::min_max); }},
+    {"mean-n-buffers", "moments", "Means of any square of 2^l texels.", 0, false,
+     [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, from.source, NBuffer::mean); }},
+    {"summed-depths", "depth", "A table of sums, which answers with the mean depth of any rectangle of texels.", 0,
+     false, add_sums},
+    {"summed-moments", "moments", "A table of sums, which answers with the mean of any rectangle of texels.", 0, false,
+     add_sums},
+    {"mip-depths", "depth", "Depths with all mips.", 0, true, add_all_mips},
+    {"mip-moments", "moments", "Moments with all mips.", 0, true, add_all_mips},
+    {"peeled-", "depth", "The nearest surfaces under each texel, nearest first.", most_peeled, false,
+     [](const DerivedFrom& from) { return add_peeled(from.input, from.recipe, from.views, from.count); }},
+}};
+
+/// A derivation by the name that a lookup asks with, and the number that ends it: "peeled-4" asks for 4.
+struct Asked {
+    const Derivation* derivation = nullptr;
+    int count = 0;
+};
+
+Asked asked(std::string_view name) {
+    for (const Derivation& d : all_derivations) {
+        if (d.most == 0 && d.name == name) {
+            return {&d, 0};
+        }
+        if (d.most == 0 || !name.starts_with(d.name)) {
+            continue;
+        }
+        int count = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + d.name.size(), end, count);
+        if (read.ec == std::errc() && read.ptr == end && count >= 1 && count <= d.most) {
+            return {&d, count};
+        }
+    }
+    return {};
+}
+
+/// Whether the device's blits and samplers filter the texture's texels.
+bool filters(const Device& device, const TextureDesc& desc) {
+    const bool float32 =
+        is_depth(desc.format) || format_bytes(desc.format) / static_cast<VkDeviceSize>(channels_of(desc.format)) == 4;
+    return !float32 || device.has(Feature::float32_filter);
+}
+
+}  // namespace
+
+std::span<const Derivation> derivations() {
+    return all_derivations;
+}
+
+bool map_gives(const Part& map, std::string_view need) {
+    const Derivation* derived = asked(need).derivation;
+    return holds(map.gives, need) || (derived != nullptr && holds(map.gives, derived->from));
+}
+
+void add_derived(const FrameInput& input, const Recipe& recipe, const LightViews& views, ShadowMap& map) {
+    for (const std::string_view need : recipe.lookup->needs) {
+        const auto [derivation, count] = asked(need);
+        const Offer* from = derivation != nullptr ? map.find(derivation->from) : nullptr;
+        if (from == nullptr || map.find(need) != nullptr) {
+            continue;
+        }
+        if (derivation->filters && !filters(input.device, input.graph.desc(from->texture))) {
+            refuse("lookup '{}' reads {}, which needs the feature {}, which device '{}' lacks", recipe.lookup->id, need,
+                   feature_name(Feature::float32_filter), input.device.info().name);
+        }
+        const TextureHandle texture = derivation->add({input, recipe, views, from->texture, count});
+        map.offers.push_back({std::string(need), texture, derivation->filters ? trilinear() : nearest()});
+    }
+}
+
+}  // namespace gn
