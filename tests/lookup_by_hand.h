@@ -17,9 +17,9 @@ inline std::vector<float> visibility_of(const Scene& scene, const Recipe& recipe
     return frame.visibility.front().values;
 }
 
-/// The same by a lookup over depth whose GLSL function's body is given; it has `at`, `depth` and
-/// `lit(texel)`, which compares with one texel at its middle. The guard stays the recipe's own, and so does the map.
-inline std::vector<float> visibility_by_hand(const Scene& scene, Recipe recipe, const std::string& body, uint pixels) {
+/// A lookup over depth whose GLSL function's body is given; it has `at`, `depth` and `lit(texel)`, which compares with one
+/// texel at its middle. The last one made is the only one to use.
+inline Part lookup_by_hand(const std::string& body) {
     static std::string text;
     text = fmt::format(
         "#include \"shadow/receiver/map_access.glsl\"\n"
@@ -34,8 +34,14 @@ inline std::vector<float> visibility_by_hand(const Scene& scene, Recipe recipe, 
     by_hand.id = "by-hand";
     by_hand.stage = Stage::lookup;
     by_hand.needs = {"depth"};
-    by_hand.guard = recipe.lookup->guard;
     by_hand.prologue = [](const Recipe&) { return text; };
+    return by_hand;
+}
+
+/// The same as visibility_of by such a lookup. The guard stays the recipe's own, and so does the map.
+inline std::vector<float> visibility_by_hand(const Scene& scene, Recipe recipe, const std::string& body, uint pixels) {
+    Part by_hand = lookup_by_hand(body);
+    by_hand.guard = recipe.lookup->guard;
     recipe.lookup = &by_hand;
     return visibility_of(scene, recipe, pixels);
 }

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The resolve pass clamps V; where the device validates, it first says what it clamps.
-#include "tests/rig.h"
+#include "tests/lookup_by_hand.h"
 
 namespace gn {
 namespace {
 
 /// What a frame of the stack says whose lookup answers with the given expression.
 std::vector<std::string> said_of(const char* expression) {
-    static std::string text;
-    text = fmt::format(
-        "float gn_wrong_visibility(GnLookup at, sampler2DArray depth) {{\n"
-        "    return {};\n}}\n",
-        expression);
-    Part wrong;
-    wrong.id = "wrong";
-    wrong.stage = Stage::lookup;
-    wrong.needs = {"depth"};
-    wrong.prologue = [](const Recipe&) { return text; };
+    const Part wrong = test::lookup_by_hand(fmt::format("    return {};", expression));
     Recipe recipe = load_recipe("hard,resolution=64");
     recipe.lookup = &wrong;
 
