@@ -9,17 +9,12 @@
 #include "shadow/placement/cascades/sdsm.h"
 
 #include "shadow/placement/cascades/cascade_views.h"
+#include "shadow/receiver/sample_pass.h"
 
 #include <set>
 
 namespace gn::cascades {
 namespace {
-
-/// A pass by the file that holds it, sdsm_<file>.glsl.
-ComputeDesc shader(const char* name, const char* file) {
-    return {{ShaderKind::compute, name, fmt::format("#include \"shadow/placement/cascades/sdsm_{}.glsl\"\n", file)},
-            {}};
-}
 
 GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params) {
     const Camera& camera = input.samples.camera;
@@ -44,34 +39,29 @@ GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     return u;
 }
 
-/// What the passes have in common.
-struct Sdsm {
-    GnSdsmConstants constants;
-    ViewSamples samples;
-    BufferHandle reduction;
-
-    void bind(Recorder& r, const ComputeDesc& desc) const {
-        r.bind(desc);
-        r.set_value("Constants", constants);
-        r.set("Reduction", reduction);
-    }
-    /// A pass over all samples.
-    void add_reduction(FrameGraph& graph, const char* name, const char* file) const {
-        graph.add_pass(
-            name,
-            [&](PassBuilder& pass) {
-                pass.sample(samples.position);
-                pass.sample(samples.normal);
-                pass.storage_write(reduction);
-            },
-            [*this, desc = shader(name, file)](Recorder& r) {
-                bind(r, desc);
-                r.set("gbuffer_position", samples.position);
-                r.set("gbuffer_normal", samples.normal);
-                r.dispatch((samples.width + 63) / 64, (samples.height + GN_SDSM_ROWS - 1) / GN_SDSM_ROWS);
-            });
-    }
+/// One pass over what all passes share and what it reads and writes besides; `file` is its shader, sdsm_<file>.glsl.
+struct Pass {
+    const char* name;
+    const char* file;
+    uvec2 groups{1};
+    ShaderInputs inputs;
 };
+
+void add_pass(FrameGraph& graph, const GnSdsmConstants& constants, BufferHandle reduction, Pass pass) {
+    pass.inputs.block("uniform", "Constants", "GnSdsmConstants u;", std::as_bytes(std::span(&constants, 1)));
+    pass.inputs.buffer("buffer", "Reduction", "GnSdsmReduction r;", reduction);
+    const std::string text = fmt::format(
+        "#include \"shadow/placement/cascades/cascades.glsl\"\n#include \"shadow/placement/cascades/sdsm.h\"\n{}"
+        "#include \"shadow/placement/cascades/sdsm_{}.glsl\"\n",
+        pass.inputs.text(), pass.file);
+    graph.add_pass(
+        pass.name, [&](PassBuilder& builder) { pass.inputs.declare(builder); },
+        [pass, shader = ComputeDesc{{ShaderKind::compute, pass.name, text}, {}}](Recorder& r) {
+            r.bind(shader);
+            pass.inputs.set(r);
+            r.dispatch(pass.groups.x, pass.groups.y);
+        });
+}
 
 /// What may cast into any view that the samples can choose: their rectangle at every turn lies within that of the
 /// receivers at this turn.
@@ -111,36 +101,25 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
         views.views.push_back(view);
     }
     views.casters.assign(count, possible_casters(input, recipe));
-    const Sdsm sdsm{constants_of(input, recipe, params), input.samples,
-                    graph.create({.name = "sample distribution", .bytes = sizeof(GnSdsmReduction)})};
+    const GnSdsmConstants constants = constants_of(input, recipe, params);
+    const BufferHandle reduction = graph.create({.name = "sample distribution", .bytes = sizeof(GnSdsmReduction)});
+    ShaderInputs samples;
+    add_gbuffer(samples, input.device, input.samples);
+    const uvec2 columns((input.samples.width + 63) / 64, (input.samples.height + GN_SDSM_ROWS - 1) / GN_SDSM_ROWS);
 
     // Where the samples are along the view, the slices, and what each slice's samples span.
     graph.add_pass(
-        "sdsm clear", [&](PassBuilder& pass) { pass.copy_to(sdsm.reduction); },
-        [sdsm](Recorder& r) { r.fill(sdsm.reduction, 0); });
-    sdsm.add_reduction(graph, "sdsm distances", "distances");
-    graph.add_pass(
-        "sdsm splits", [&](PassBuilder& pass) { pass.storage_write(sdsm.reduction); },
-        [sdsm, desc = shader("sdsm splits", "splits")](Recorder& r) {
-            sdsm.bind(r, desc);
-            r.dispatch(1, 1);
-        });
-    sdsm.add_reduction(graph, "sdsm bounds", "bounds");
+        "sdsm clear", [&](PassBuilder& pass) { pass.copy_to(reduction); },
+        [reduction](Recorder& r) { r.fill(reduction, 0); });
+    add_pass(graph, constants, reduction, {"sdsm distances", "distances", columns, samples});
+    add_pass(graph, constants, reduction, {"sdsm splits", "splits", uvec2(1), {}});
+    add_pass(graph, constants, reduction, {"sdsm bounds", "bounds", columns, samples});
 
     // The views around them.
-    graph.add_pass(
-        "sdsm views",
-        [&](PassBuilder& pass) {
-            pass.storage_read(sdsm.reduction);
-            pass.storage_write(views.buffer);
-            pass.storage_write(views.data_buffer);
-        },
-        [sdsm, buffer = views.buffer, data = views.data_buffer, desc = shader("sdsm views", "views")](Recorder& r) {
-            sdsm.bind(r, desc);
-            r.set("Views", buffer);
-            r.set("Placement", data);
-            r.dispatch(1, 1);
-        });
+    ShaderInputs made;
+    made.buffer("writeonly buffer", "Views", "GnLightView views[];", views.buffer);
+    made.buffer("writeonly buffer", "Placement", "GnPlacementData placement;", views.data_buffer);
+    add_pass(graph, constants, reduction, {"sdsm views", "views", uvec2(1), made});
     return views;
 }
 

@@ -2,7 +2,7 @@
 // Slices of equal ratio between nearest and farthest ([LSL10] 3.1); or, where the histogram counts, those that minimize the
 // mean over all samples of the size of their texels: a slice that ends at z has texels proportional to z, and a sample errs
 // where an edge lies within a texel of it. Gaps between the samples take no slice by themselves.
-#include "shadow/placement/cascades/sdsm_bindings.glsl"
+#include "shadow/placement/cascades/sdsm_steps.glsl"
 layout(local_size_x = 1) in;
 const int COARSE = 64;  // bins that a slice can end at
 const float NEVER = 1.0e30;

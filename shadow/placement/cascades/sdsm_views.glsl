@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One orthographic view around each slice's samples, of the rectangles found the one of least area, wide enough for the
 // kernels; and what the choice reads.
-#include "shadow/light_view.h"
-#include "shadow/placement/cascades/sdsm_bindings.glsl"
+#include "shadow/placement/cascades/sdsm_steps.glsl"
 layout(local_size_x = 1) in;
-layout(binding = 4, scalar) buffer Views { GnLightView views[]; };
-layout(binding = 5, scalar) buffer Placement { GnPlacementData placement; };
 
 void set_row(inout mat4 m, int row, vec4 values) {
     for (int column = 0; column < 4; ++column) {

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every pass of sample distribution shadow maps binds, and numbers that atomics can order.
-#include "shadow/placement/cascades/cascades.glsl"
-#include "shadow/placement/cascades/sdsm.h"
-layout(binding = 0, scalar) uniform Constants { GnSdsmConstants u; };
-layout(binding = 1, scalar) buffer Reduction { GnSdsmReduction r; };
+// Steps of distance, and numbers that atomics can order; every pass reads the constants u and the reduction r.
 
 // Distances of even steps in what a pixel spans: of one ratio where pixels grow with the distance, else of one length.
 float distance_at(float near, float far, float t) {
