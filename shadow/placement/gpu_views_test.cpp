@@ -181,6 +181,8 @@ TEST(GpuViewsRendered, InTilesGiveTheSameVisibilityAsThoseOfTheCpu) {
           {"contact:light=point", "vsm,placement=cube,cube.resolution=coverage,resolution=256"},
           {"contact:light=point", "convolution,placement=cube,cube.resolution=coverage,resolution=256"},
           {"contact:light=point", "silhouette,placement=cube,cube.resolution=coverage,resolution=256"},
+          {"contact:light=point", "hard,placement=cube,cube.resolution=coverage,resolution=256,casters=ids"},
+          {"contact:light=point", "forward,placement=cube,cube.resolution=coverage,resolution=256"},
           {"fence", "hard,placement=cascades,resolution=256"},
           {"contact", "pcf,placement=cascades,cascades.passes=layered,resolution=256"}}) {
         EXPECT_EQ(both(scene, recipe, true).differing(), 0U) << recipe;
