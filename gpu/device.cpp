@@ -166,7 +166,8 @@ class VulkanDevice final : public Device {
         const std::filesystem::path cache = cache_root().empty() ? std::filesystem::path() : cache_root() / "shaders";
         shaders_ = std::make_unique<ShaderCompiler>(data_root(), cache);
         memory_ = std::make_unique<MemoryPool>(candidate_.physical, device_, counters().allocations);
-        pipelines_ = std::make_unique<PipelineCache>(*this);
+        const std::filesystem::path kept = cache_root().empty() ? std::filesystem::path() : cache_root() / "pipelines";
+        pipelines_ = std::make_unique<PipelineCache>(*this, kept);
     }
 
     MessageLog log_;

@@ -44,8 +44,9 @@ enum class Feature {
     atomic_float_add,
     subgroup_arithmetic,
     timestamps,  ///< meaningful ones
+    multi_draw_indirect,
 };
-inline constexpr int feature_count = 12;
+inline constexpr int feature_count = 13;
 std::string_view feature_name(Feature feature);
 /// What a missing feature rules out or falls back to, one sentence.
 std::string_view feature_consequence(Feature feature);

@@ -24,6 +24,7 @@ constexpr std::array<FeatureText, feature_count> feature_texts{{
     {"atomic_float_add", "without it float sums use compare-and-swap"},
     {"subgroup_arithmetic", "without it reductions go through shared memory"},
     {"timestamps", "without them each pass is timed by its own submit and the host's clock"},
+    {"multi_draw_indirect", "without it the draws of a run of objects are recorded one by one"},
 }};
 
 /// A required feature: its name and where it sits in the chain.
@@ -63,7 +64,6 @@ const std::array wanted_features{
     GN_REQUIRED(core.features, depthBiasClamp),
     GN_REQUIRED(core.features, largePoints),
     GN_REQUIRED(core.features, multiViewport),
-    GN_REQUIRED(core.features, multiDrawIndirect),
     GN_REQUIRED(core.features, drawIndirectFirstInstance),
     GN_REQUIRED(core.features, fillModeNonSolid),
     GN_REQUIRED(v11, shaderDrawParameters),
@@ -150,6 +150,7 @@ void find_features(Candidate& candidate, FeatureChain& chain, const VkPhysicalDe
     set(Feature::subgroup_arithmetic, (v11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0 &&
                                           (v11.subgroupSupportedStages & stages) == stages);
     set(Feature::timestamps, !candidate.info.cpu && candidate.timestamp_bits > 0);
+    set(Feature::multi_draw_indirect, chain.core.features.multiDrawIndirect != 0);
 }
 
 /// A real GPU before a virtual one before a CPU.
@@ -357,6 +358,7 @@ void keep_enabled(Candidate& candidate, const AdoptedDevice& host) {
     };
     only_if(Feature::anisotropy, chain.core.features.samplerAnisotropy != 0);
     only_if(Feature::shader_float64, chain.core.features.shaderFloat64 != 0);
+    only_if(Feature::multi_draw_indirect, chain.core.features.multiDrawIndirect != 0);
     only_if(
         Feature::layer_from_vertex_shader,
         chain.v12.shaderOutputLayer != 0 || candidate.has_extension(VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME));
@@ -389,6 +391,7 @@ void enable(const Candidate& candidate, FeatureChain& chain, std::vector<const c
     const auto bit = [&](Feature feature) { return has(feature) ? VK_TRUE : VK_FALSE; };
     chain.core.features.samplerAnisotropy = bit(Feature::anisotropy);
     chain.core.features.shaderFloat64 = bit(Feature::shader_float64);
+    chain.core.features.multiDrawIndirect = bit(Feature::multi_draw_indirect);
     chain.v12.shaderOutputLayer = bit(Feature::layer_from_vertex_shader);
     chain.interlock.fragmentShaderPixelInterlock = bit(Feature::fragment_interlock);
     chain.atomic_float.shaderBufferFloat32AtomicAdd = bit(Feature::atomic_float_add);

@@ -6,6 +6,7 @@
 #include "gpu/graph_builder.h"
 #include "gpu/graph_executor.h"
 #include "gpu/graph_plan.h"
+#include "gpu/pipeline_warmer.h"
 #include "gpu/transfer.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ struct FrameGraph::Impl {
     Imports imports;
     std::vector<Execute> executes;
     std::vector<Answer> answers;
+    std::vector<std::shared_ptr<const void>> objects;  ///< that passes use
     std::string group;
 
     GraphPlan plan;
@@ -176,6 +178,20 @@ void FrameGraph::answer(BufferHandle buffer, std::function<void(std::span<const 
     impl_->answers.push_back({buffer.index, std::move(receive)});
 }
 
+void FrameGraph::hold(std::shared_ptr<const void> object) {
+    impl_->objects.push_back(std::move(object));
+}
+
+void FrameGraph::compile() {
+    PipelineWarmer warmer(impl_->device, impl_->declaration);
+    for (const std::uint32_t pass : living_passes(impl_->declaration)) {
+        if (impl_->executes[pass]) {
+            warmer.begin(impl_->declaration.passes[pass]);
+            impl_->executes[pass](warmer);
+        }
+    }
+}
+
 void FrameGraph::execute(bool timed) {
     Impl& impl = *impl_;
     impl.prepare();
@@ -212,6 +228,9 @@ void FrameGraph::record(Frames& frames, VkCommandBuffer commands) {
         if (impl.imports.textures[i] != nullptr) {
             impl.imports.textures[i]->layouts = layouts[i];
         }
+    }
+    for (const std::shared_ptr<const void>& object : impl.objects) {
+        frames.retire(object);
     }
 }
 

@@ -35,6 +35,7 @@ struct BufferHandle {
 /// A part of a texture; counts of ~0 mean "the rest".
 struct Range {
     std::uint32_t mip = 0, mips = ~0U, layer = 0, layers = ~0U;
+    bool operator==(const Range&) const = default;
 };
 inline Range one_layer(std::uint32_t layer, std::uint32_t mip = 0) {
     return {mip, 1, layer, 1};
@@ -132,6 +133,8 @@ class Recorder {
                       std::uint32_t first_instance = 0) = 0;
     virtual void draw_indexed(std::uint32_t indices, std::uint32_t instances = 1, std::uint32_t first_index = 0,
                               std::int32_t vertex_offset = 0, std::uint32_t first_instance = 0) = 0;
+    /// Many draws with the same state: one command where the device takes their list from a buffer.
+    virtual void draw_indexed(std::span<const VkDrawIndexedIndirectCommand> draws) = 0;
     virtual void draw_indirect(BufferHandle arguments, VkDeviceSize offset = 0) = 0;
     /// Consecutive VkDrawIndexedIndirectCommands from `offset`; more than one where the device draws several at once.
     virtual void draw_indexed_indirect(BufferHandle arguments, VkDeviceSize offset = 0, std::uint32_t draws = 1) = 0;
@@ -192,7 +195,13 @@ class FrameGraph {
     /// Hands the buffer's final contents to `receive` without a stall: after execute, which waits anyway; after record,
     /// when the frame's slot is taken up again, so a frame or more late. `receive` must not throw.
     void answer(BufferHandle buffer, std::function<void(std::span<const std::byte>)> receive);
+    /// Keeps an object that the passes use: as long as the graph, and where that is recorded until the slot is taken up
+    /// again.
+    void hold(std::shared_ptr<const void> object);
 
+    /// Makes every pipeline and sampler that the passes will bind, and records nothing: what a host does before its first
+    /// frame, so that none waits for a compiler. Throws Error.
+    void compile();
     /// Culls, orders by declaration, places memory, records, submits and waits. May be called again: the same graph
     /// is then run once more. Throws Error on out-of-memory or a lost device.
     void execute(bool timed = true);

@@ -29,7 +29,7 @@ struct Slot {
     explicit Slot(Device& device) : arena(device), timestamps(device) {}
     UploadArena arena;
     PassTimestamps timestamps;
-    std::vector<std::shared_ptr<void>> retired;
+    std::vector<std::shared_ptr<const void>> retired;
     std::shared_ptr<Planned> recorded;  ///< what was recorded last
     GraphStatistics completed;
     struct Waiting {
@@ -129,7 +129,7 @@ void Frames::begin(std::uint32_t slot) {
     impl_->retire_unused();
 }
 
-void Frames::retire(std::shared_ptr<void> object) {
+void Frames::retire(std::shared_ptr<const void> object) {
     impl_->slots[impl_->slot]->retired.push_back(std::move(object));
 }
 

@@ -43,7 +43,7 @@ class Frames {
     /// not there.
     void begin(std::uint32_t slot);
     /// Keeps an object until the slot in hand is taken up again: a frame in flight may still use it.
-    void retire(std::shared_ptr<void> object);
+    void retire(std::shared_ptr<const void> object);
     /// The account of a slot's last completed use; times are 0 where the device has no meaningful timestamps.
     [[nodiscard]] const GraphStatistics& completed(std::uint32_t slot) const;
     /// Plans that are kept now.

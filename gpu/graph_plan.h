@@ -6,6 +6,7 @@
 
 #include "gpu/frame_graph.h"
 #include "gpu/hash.h"
+#include "gpu/pipeline_cache.h"
 
 #include <optional>
 #include <string>
@@ -135,6 +136,8 @@ struct GraphPlan {
 
 /// Declared passes, in order, whose results reach an imported or kept resource or a pass that must stay.
 std::vector<std::uint32_t> living_passes(const GraphDeclaration& declaration);
+/// What a raster pipeline must know of the pass.
+AttachmentFormats attachment_formats(const GraphDeclaration& declaration, const DeclaredPass& pass);
 /// Fills placements and heaps; resources whose lives overlap never overlap in memory.
 void place(const GraphDeclaration& declaration, const Footprints& footprints, GraphPlan& plan);
 /// Fills every pass's barriers and the final layouts; needs placements.

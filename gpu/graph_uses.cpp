@@ -5,6 +5,25 @@
 #include <array>
 
 namespace gn {
+
+AttachmentFormats attachment_formats(const GraphDeclaration& declaration, const DeclaredPass& pass) {
+    AttachmentFormats formats;
+    for (const Use& use : pass.uses) {
+        const bool depth = use.kind == UseKind::depth || use.kind == UseKind::depth_read_only;
+        if (!depth && use.kind != UseKind::color) {
+            continue;
+        }
+        const TextureDesc& target = declaration.textures[use.resource].desc;
+        formats.samples = target.samples;
+        if (depth) {
+            formats.depth = target.format;
+            formats.depth_read_only = use.kind == UseKind::depth_read_only;
+        } else {
+            formats.colors.push_back(target.format);
+        }
+    }
+    return formats;
+}
 namespace {
 
 constexpr VkPipelineStageFlags2 depth_stages =

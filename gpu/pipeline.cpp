@@ -25,7 +25,8 @@ VkShaderStageFlagBits stage_of(ShaderKind kind) {
 }
 
 void hash(Hasher& hasher, const ShaderSource& shader) {
-    hasher.value(shader.kind).text(shader.name).text(shader.text);
+    const Fingerprint own = shader.fingerprint ? *shader.fingerprint : shader.work_out();
+    hasher.value(own.low).value(own.high);
 }
 
 void hash(Hasher& hasher, const SpecConstants& constants) {
@@ -148,17 +149,6 @@ std::vector<PipelineBinding> merge_bindings(std::span<const CompiledShader* cons
     return merged;
 }
 
-PipelineCache::PipelineCache(Device& device) : device_(device) {}
-
-PipelineCache::~PipelineCache() {
-    for (auto& [key, pipeline] : pipelines_) {
-        destroy(pipeline);
-    }
-    for (const auto& [key, sampler] : samplers_) {
-        vkDestroySampler(device_.vk(), sampler, nullptr);
-    }
-}
-
 void PipelineCache::destroy(Pipeline& pipeline) const {
     vkDestroyPipeline(device_.vk(), pipeline.vk, nullptr);
     vkDestroyPipelineLayout(device_.vk(), pipeline.layout, nullptr);
@@ -211,7 +201,7 @@ const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
     const Module module(device_.vk(), *shader, specialization);
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
-    GN_VK(vkCreateComputePipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    GN_VK(vkCreateComputePipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
     return pipelines_.emplace(key, std::move(pipeline)).first->second;
 }
@@ -253,46 +243,9 @@ const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentForma
                                             .pColorBlendState = &fixed.blend,
                                             .pDynamicState = &fixed.dynamic,
                                             .layout = pipeline.layout};
-    GN_VK(vkCreateGraphicsPipelines(device_.vk(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline.vk));
+    GN_VK(vkCreateGraphicsPipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
     return pipelines_.emplace(key, std::move(pipeline)).first->second;
-}
-
-VkSampler PipelineCache::sampler(const SamplerDesc& desc) {
-    const VkSamplerAddressMode v = desc.address_v == VK_SAMPLER_ADDRESS_MODE_MAX_ENUM ? desc.address : desc.address_v;
-    const Fingerprint key = Hasher()
-                                .value(desc.filter)
-                                .value(desc.mip_linear)
-                                .value(desc.address)
-                                .value(v)
-                                .value(desc.border)
-                                .value(desc.compare.value_or(VK_COMPARE_OP_MAX_ENUM))
-                                .value(desc.anisotropy)
-                                .finish();
-    if (const auto found = samplers_.find(key); found != samplers_.end()) {
-        return found->second;
-    }
-    const bool anisotropic = desc.anisotropy > 1.0F && device_.has(Feature::anisotropy);
-    const VkSamplerCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .magFilter = desc.filter,
-        .minFilter = desc.filter,
-        .mipmapMode = desc.mip_linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
-        .addressModeU = desc.address,
-        .addressModeV = v,
-        .addressModeW = desc.address,
-        .anisotropyEnable = anisotropic ? VK_TRUE : VK_FALSE,
-        .maxAnisotropy = std::min(desc.anisotropy, device_.properties().limits.maxSamplerAnisotropy),
-        .compareEnable = desc.compare ? VK_TRUE : VK_FALSE,
-        .compareOp = desc.compare.value_or(VK_COMPARE_OP_ALWAYS),
-        .maxLod = VK_LOD_CLAMP_NONE,
-        .borderColor = desc.border,
-    };
-    VkSampler sampler = VK_NULL_HANDLE;
-    GN_VK(vkCreateSampler(device_.vk(), &info, nullptr, &sampler));
-    ++device_.counters().samplers;
-    samplers_.emplace(key, sampler);
-    return sampler;
 }
 
 ShaderSource fullscreen_vertex_shader() {
@@ -303,6 +256,21 @@ void main() {
     gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
 }
 )"};
+}
+
+ComputeDesc sealed(ComputeDesc desc) {
+    desc.shader.seal();
+    return desc;
+}
+
+RasterDesc sealed(RasterDesc desc) {
+    desc.vertex.seal();
+    for (std::optional<ShaderSource>* stage : {&desc.geometry, &desc.fragment}) {
+        if (*stage) {
+            (*stage)->seal();
+        }
+    }
+    return desc;
 }
 
 RasterDesc fullscreen(ShaderSource fragment) {

@@ -46,6 +46,10 @@ struct RasterDesc {
     std::uint32_t vertex_stride = 0;
 };
 
+/// The same with its shaders' fingerprints worked out, for descriptions that are made once and bound often.
+ComputeDesc sealed(ComputeDesc desc);
+RasterDesc sealed(RasterDesc desc);
+
 /// A full-screen triangle: gl_Position without any vertex buffer, uv in location 0 (0,0 top left).
 ShaderSource fullscreen_vertex_shader();
 RasterDesc fullscreen(ShaderSource fragment);

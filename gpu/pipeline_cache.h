@@ -4,6 +4,7 @@
 
 #include "gpu/frame_graph.h"
 #include "gpu/hash.h"
+#include "gpu/shader_cache.h"
 
 namespace gn {
 
@@ -38,7 +39,8 @@ std::vector<PipelineBinding> merge_bindings(std::span<const CompiledShader* cons
 
 class PipelineCache {
   public:
-    explicit PipelineCache(Device& device);
+    /// `folder` holds what the driver compiled from run to run; empty: nothing is kept on disk.
+    PipelineCache(Device& device, std::filesystem::path folder);
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
@@ -48,12 +50,20 @@ class PipelineCache {
     VkSampler sampler(const SamplerDesc& desc);
     /// How many pipelines were made so far.
     [[nodiscard]] std::size_t size() const { return pipelines_.size(); }
+    /// Writes what the driver compiled to disk, where pipelines were made since the last time; at the end this is done
+    /// anyway.
+    void save();
 
   private:
+    void load();
     Pipeline lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point);
     void destroy(Pipeline& pipeline) const;
 
     Device& device_;
+    ShaderCache disk_;
+    Fingerprint disk_key_;  ///< of the driver, which alone can read its own data
+    VkPipelineCache vk_ = VK_NULL_HANDLE;
+    std::size_t saved_ = 0;  ///< pipelines that the disk knows
     std::map<Fingerprint, Pipeline> pipelines_;
     std::map<Fingerprint, VkSampler> samplers_;
 };

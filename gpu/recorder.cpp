@@ -92,6 +92,7 @@ void GraphRecorder::begin_rendering() {
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     VkRenderingAttachmentInfo stencil{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     std::uint32_t layers = 1;
+    formats_ = attachment_formats(declaration_, *pass_);
     for (const Use& use : pass_->uses) {
         if (use.kind != UseKind::color && use.kind != UseKind::depth && use.kind != UseKind::depth_read_only) {
             continue;
@@ -100,7 +101,6 @@ void GraphRecorder::begin_rendering() {
         layers = use.range.layers;
         width_ = std::max(target.width >> use.range.mip, 1U);
         height_ = std::max(target.height >> use.range.mip, 1U);
-        formats_.samples = target.samples;
 
         // One view of all layers that are drawn into.
         const VkImageViewType type = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
@@ -112,14 +112,11 @@ void GraphRecorder::begin_rendering() {
         info.clearValue = clear_value(use, target.format);
         if (use.kind == UseKind::color) {
             colors.push_back(info);
-            formats_.colors.push_back(target.format);
             continue;
         }
 
         // A depth that is only tested is loaded and left alone; its stencil has a life of its own.
         depth = stencil = info;
-        formats_.depth = target.format;
-        formats_.depth_read_only = use.kind == UseKind::depth_read_only;
         if (formats_.depth_read_only) {
             depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
             depth.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
@@ -191,6 +188,23 @@ void GraphRecorder::draw_indexed(std::uint32_t indices, std::uint32_t instances,
         fail("pass '{}' calls draw_indexed without an index_buffer", pass_->name);
     }
     vkCmdDrawIndexed(commands_, indices, instances, first_index, vertex_offset, first_instance);
+}
+
+void GraphRecorder::draw_indexed(std::span<const VkDrawIndexedIndirectCommand> draws) {
+    const std::size_t most = device_.properties().limits.maxDrawIndirectCount;
+    if (draws.size() < 2 || draws.size() > most || !device_.has(Feature::multi_draw_indirect)) {
+        for (const VkDrawIndexedIndirectCommand& draw : draws) {
+            draw_indexed(draw.indexCount, draw.instanceCount, draw.firstIndex, draw.vertexOffset, draw.firstInstance);
+        }
+        return;
+    }
+    prepare(VK_PIPELINE_BIND_POINT_GRAPHICS, "draw_indexed");
+    if (!has_index_buffer_) {
+        fail("pass '{}' calls draw_indexed without an index_buffer", pass_->name);
+    }
+    const UploadedBytes list = arena_.put(std::as_bytes(draws));
+    vkCmdDrawIndexedIndirect(commands_, list.buffer, list.offset, static_cast<std::uint32_t>(draws.size()),
+                             sizeof(VkDrawIndexedIndirectCommand));
 }
 
 void GraphRecorder::draw_indirect(BufferHandle arguments, VkDeviceSize offset) {

@@ -35,6 +35,7 @@ class GraphRecorder final : public Recorder {
               std::uint32_t first_instance) override;
     void draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                       std::int32_t vertex_offset, std::uint32_t first_instance) override;
+    void draw_indexed(std::span<const VkDrawIndexedIndirectCommand> draws) override;
     void draw_indirect(BufferHandle arguments, VkDeviceSize offset) override;
     void draw_indexed_indirect(BufferHandle arguments, VkDeviceSize offset, std::uint32_t draws) override;
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
@@ -51,7 +52,7 @@ class GraphRecorder final : public Recorder {
     enum class SlotKind { texture, storage, buffer, bytes };
     /// What a name stands for in this pass.
     struct Slot {
-        std::string name;
+        std::string name{};
         SlotKind kind = SlotKind::bytes;
         std::uint32_t resource = 0;
         Range range{};
@@ -66,7 +67,8 @@ class GraphRecorder final : public Recorder {
     };
 
     void begin_rendering();
-    Slot& slot(std::string_view name);
+    /// Lets a name stand for something; descriptors stay as they are where it already did.
+    void stand_for(std::string_view name, const Slot& what);
     [[nodiscard]] Range resolve(TextureHandle texture, Range range, std::string_view what) const;
     [[nodiscard]] const std::string& name_of(TextureHandle texture) const;
     [[nodiscard]] const std::string& name_of(BufferHandle buffer) const;

@@ -35,41 +35,38 @@ void GraphRecorder::bind(const RasterDesc& desc) {
     }
 }
 
-GraphRecorder::Slot& GraphRecorder::slot(std::string_view name) {
-    descriptors_stale_ = true;
+void GraphRecorder::stand_for(std::string_view name, const Slot& what) {
     const auto found = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& held) { return held.name == name; });
-    return found != slots_.end() ? *found : slots_.emplace_back(Slot{.name = std::string(name)});
+    if (found != slots_.end() && what.kind != SlotKind::bytes && found->kind == what.kind &&
+        found->resource == what.resource && found->range == what.range && found->sampler == what.sampler) {
+        return;
+    }
+    descriptors_stale_ = true;
+    Slot& held = found != slots_.end() ? *found : slots_.emplace_back(Slot{.name = std::string(name)});
+    held.kind = what.kind;
+    held.resource = what.resource;
+    held.range = what.range;
+    held.sampler = what.sampler;
+    held.bytes = what.bytes;
 }
 
 void GraphRecorder::set(std::string_view name, TextureHandle texture, const SamplerDesc& sampler, Range range) {
     range = resolve(texture, range, name);
-    Slot& held = slot(name);
-    held.kind = SlotKind::texture;
-    held.resource = texture.index;
-    held.range = range;
-    held.sampler = sampler;
+    stand_for(name, {.kind = SlotKind::texture, .resource = texture.index, .range = range, .sampler = sampler});
 }
 
 void GraphRecorder::set_storage(std::string_view name, TextureHandle texture, Range range) {
     range = resolve(texture, range, name);
-    Slot& held = slot(name);
-    held.kind = SlotKind::storage;
-    held.resource = texture.index;
-    held.range = range;
+    stand_for(name, {.kind = SlotKind::storage, .resource = texture.index, .range = range});
 }
 
 void GraphRecorder::set(std::string_view name, BufferHandle buffer) {
     static_cast<void>(name_of(buffer));
-    Slot& held = slot(name);
-    held.kind = SlotKind::buffer;
-    held.resource = buffer.index;
+    stand_for(name, {.kind = SlotKind::buffer, .resource = buffer.index});
 }
 
 void GraphRecorder::set_bytes(std::string_view name, std::span<const std::byte> bytes) {
-    const UploadedBytes uploaded = arena_.put(bytes);
-    Slot& held = slot(name);
-    held.kind = SlotKind::bytes;
-    held.bytes = uploaded;
+    stand_for(name, {.kind = SlotKind::bytes, .bytes = arena_.put(bytes)});
 }
 
 void GraphRecorder::push(std::span<const std::byte> bytes) {

@@ -409,6 +409,49 @@ void main() { gl_Position = vec4(p_cs, 1.0); }
     }
 }
 
+TEST_F(Raster, ManyDrawsAreAllDrawnAndNoOther) {
+    // Two triangles a quarter of the picture; the list leaves the second quarter out.
+    std::array<std::uint32_t, 24> numbers{};
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+        numbers[i] = i;
+    }
+    const Buffer indices = upload_buffer(device, {.name = "indices", .usage = VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
+                                         std::as_bytes(std::span(numbers)));
+    const BufferHandle i = graph.import(indices);
+    const TextureHandle color = target("color", VK_FORMAT_R32_SFLOAT);
+    graph.keep(color);
+    graph.add_pass(
+        "many",
+        [&](PassBuilder& pass) {
+            pass.indices(i);
+            pass.color(color, Load::clear);
+        },
+        [=](Recorder& r) {
+            r.bind(RasterDesc{.vertex = vertex_shader("quarters", R"(
+layout(location = 0) flat out float value;
+void main() {
+    int quarter = gl_VertexIndex / 6;
+    int corner = int[](0, 2, 3, 0, 3, 1)[gl_VertexIndex % 6];
+    vec2 low = vec2(quarter & 1, quarter >> 1) - 1.0;
+    gl_Position = vec4(low + vec2(corner & 1, corner >> 1), 0.5, 1.0);
+    value = float(1 + quarter);
+}
+)"),
+                              .fragment = value_fragment_shader()});
+            r.index_buffer(i);
+            r.draw_indexed(std::array{VkDrawIndexedIndirectCommand{6, 1, 0, 0, 0},
+                                      VkDrawIndexedIndirectCommand{6, 1, 6, 6, 0},
+                                      VkDrawIndexedIndirectCommand{6, 1, 18, 0, 0}});
+        });
+    graph.execute();
+    // The vertex offset moves the second draw on to the third quarter.
+    const auto colors = floats(color);
+    EXPECT_EQ(colors[0], 1.0F);
+    EXPECT_EQ(colors[side - 1], 0.0F);
+    EXPECT_EQ(colors[side * (side - 1)], 3.0F);
+    EXPECT_EQ(colors[side * side - 1], 4.0F);
+}
+
 TEST_F(Raster, SpecializationConstantsReachEveryStage) {
     const TextureHandle color = target("color", VK_FORMAT_R32_SFLOAT);
     graph.keep(color);

@@ -128,7 +128,7 @@ ShaderCompiler::~ShaderCompiler() = default;
 
 const CompiledShader& ShaderCompiler::compile(const ShaderSource& source) {
     // Ask this process first, by the text alone.
-    const Fingerprint here = Hasher().value(source.kind).text(source.name).text(source.text).finish();
+    const Fingerprint here = source.fingerprint.value_or(source.work_out());
     if (const auto found = impl_->compiled.find(here); found != impl_->compiled.end()) {
         return found->second;
     }

@@ -4,11 +4,13 @@
 #pragma once
 
 #include "base/error.h"
+#include "gpu/hash.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,10 @@ struct ShaderSource {
     ShaderKind kind = ShaderKind::compute;
     std::string name;  ///< for errors and labels
     std::string text;
+    std::optional<Fingerprint> fingerprint{};  ///< of the three above, where their maker worked it out once: seal()
+
+    [[nodiscard]] Fingerprint work_out() const { return Hasher().value(kind).text(name).text(text).finish(); }
+    void seal() { fingerprint = work_out(); }
 };
 
 /// A binding found in compiled code, for binding by name.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SPIR-V on disk, one file a key. A damaged or half-written file counts as absent.
+// SPIR-V, and what drivers make of it, on disk: words, one file a key. A damaged or half-written file counts as absent.
 #pragma once
 
 #include "gpu/hash.h"

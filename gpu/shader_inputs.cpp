@@ -101,6 +101,14 @@ std::string ShaderInputs::text(unsigned first) const {
     return text;
 }
 
+void ShaderInputs::hash(Hasher& hasher) const {
+    hasher.value(entries_.size());
+    for (const Entry& entry : entries_) {
+        hasher.text(entry.declaration);
+    }
+    hasher.text(constant_members_);
+}
+
 void ShaderInputs::declare(PassBuilder& pass) const {
     for (const Entry& entry : entries_) {
         if (entry.kind == Kind::texture) {

@@ -41,6 +41,8 @@ class ShaderInputs {
 
     /// GLSL: the declarations, numbered from `first`. The types that they name must stand before.
     [[nodiscard]] std::string text(unsigned first = 0) const;
+    /// All that the text depends on, for keys of shaders that are made once.
+    void hash(Hasher& hasher) const;
     void declare(PassBuilder& pass) const;
     void set(Recorder& r) const;
 

@@ -114,6 +114,22 @@ Buffer upload_buffer(Device& device, const BufferDesc& desc, std::span<const std
     return buffer;
 }
 
+void write_buffer(Device& device, const Buffer& buffer, std::span<const std::byte> data) {
+    if (data.empty()) {
+        return;
+    }
+    if (data.size() > buffer.desc().bytes) {
+        fail("buffer '{}' has {} bytes, and {} were to be written", buffer.desc().name, buffer.desc().bytes,
+             data.size());
+    }
+    const Buffer staging = staging_buffer(device, buffer.desc().name, data.size());
+    std::memcpy(staging.mapped(), data.data(), data.size());
+    device.run([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, data.size()};
+        vkCmdCopyBuffer(commands, staging.vk(), buffer.vk(), 1, &region);
+    });
+}
+
 Texture2D upload_texture(Device& device, const TextureDesc& desc, std::span<const std::byte> data) {
     const VkDeviceSize expected = VkDeviceSize{desc.width} * desc.height * desc.layers * format_bytes(desc.format);
     if (data.size() != expected) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Host-visible bytes that live for one execution: the blocks given by Recorder::set_bytes, and what the device answers.
+// Host-visible bytes that live for one execution: the blocks given by Recorder::set_bytes, lists of draws, and what
+// the device answers.
 #pragma once
 
 #include "gpu/memory.h"
@@ -44,7 +45,8 @@ class UploadArena {
             chunks_.emplace_back(
                 device_, BufferDesc{.name = "uniforms",
                                     .bytes = std::max<VkDeviceSize>(chunk_bytes, bytes),
-                                    .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                    .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                             VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                                     .host_visible = true});
         }
         const Buffer& chunk = chunks_[chunk_];
