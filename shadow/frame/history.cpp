@@ -4,6 +4,9 @@
 namespace gn {
 namespace {
 
+/// Frames that a host may have in flight (gpu/frames.h).
+constexpr std::uint64_t most_in_flight = 8;
+
 bool same(const TextureDesc& a, const TextureDesc& b) {
     return a.format == b.format && a.width == b.width && a.height == b.height && a.layers == b.layers &&
            a.mips == b.mips && a.samples == b.samples && (b.usage & ~a.usage) == 0;
@@ -11,13 +14,61 @@ bool same(const TextureDesc& a, const TextureDesc& b) {
 
 }  // namespace
 
-Texture2D& History::texture(const TextureDesc& desc, bool& fresh) {
-    const auto found = textures_.find(desc.name);
-    fresh = found == textures_.end() || !same(found->second.desc(), desc);
-    if (fresh) {
-        textures_.insert_or_assign(desc.name, Texture2D(device_, desc));
+void History::advance() {
+    for (auto& [name, kept] : textures_) {
+        kept.written = kept.written || kept.asked;
+        kept.asked = false;
     }
-    return textures_.at(desc.name);
+    for (auto& [name, pair] : pairs_) {
+        pair.now = pair.asked ? 1 - pair.now : pair.now;
+        pair.written = pair.written || pair.asked;
+        pair.asked = false;
+    }
+    for (auto& [name, value] : values_) {
+        if (value.now.has_value()) {
+            value.before = std::move(value.now);
+            value.now.reset();
+        }
+    }
+    ++frame_;
+    std::erase_if(dropped_, [&](const Dropped& d) { return d.frame + most_in_flight < frame_; });
+}
+
+void History::clear() {
+    for (auto& [name, kept] : textures_) {
+        drop(std::move(kept.texture));
+    }
+    for (auto& [name, pair] : pairs_) {
+        for (Texture2D& texture : pair.textures) {
+            drop(std::move(texture));
+        }
+    }
+    textures_.clear();
+    pairs_.clear();
+    values_.clear();
+}
+
+Texture2D& History::texture(const TextureDesc& desc, bool& fresh) {
+    KeptTexture& kept = textures_[desc.name];
+    if (kept.texture.vk() == VK_NULL_HANDLE || !same(kept.texture.desc(), desc)) {
+        drop(std::move(kept.texture));
+        kept = {Texture2D(device_, desc)};
+    }
+    kept.asked = true;
+    fresh = !kept.written;
+    return kept.texture;
+}
+
+History::Pair History::pair(const TextureDesc& desc) {
+    KeptPair& held = pairs_[desc.name];
+    if (held.textures[0].vk() == VK_NULL_HANDLE || !same(held.textures[0].desc(), desc)) {
+        for (Texture2D& texture : held.textures) {
+            drop(std::move(texture));
+        }
+        held = {{Texture2D(device_, desc), Texture2D(device_, desc)}};
+    }
+    held.asked = true;
+    return {held.written ? &held.textures[1 - held.now] : nullptr, &held.textures[held.now]};
 }
 
 }  // namespace gn

@@ -53,8 +53,11 @@ shared vec3 prefix[GN_LVSM_BINS + 1];
 #define RUN (GN_LVSM_BINS / THREADS)
 layout(local_size_x = THREADS) in;
 layout(binding = 0, scalar) readonly buffer Bins { uint bins[]; };
-layout(binding = 1, r32f) uniform image2DArray splits;
-layout(binding = 2, scalar) uniform Lloyd { GnLvsmParams params; int fresh; } u;
+layout(binding = 1, r32f) uniform writeonly image2DArray splits;
+layout(binding = 2, scalar) uniform Lloyd { GnLvsmParams params; } u;
+#ifdef GN_BEFORE
+layout(binding = 3, r32f) uniform readonly image2DArray splits_before;
+#endif
 shared vec3 runs[THREADS];
 void main() {
     int row = int(gl_WorkGroupID.x);
@@ -88,13 +91,13 @@ void main() {
     if (thread != 0) {
         return;
     }
-    // Relax from where the splits are.
+    // Relax from where the frame before left the splits.
     GnLloydSplits s = gn_lloyd_uniform(u.params.layers);
-    if (u.fresh == 0) {
-        for (int k = 1; k < u.params.layers; ++k) {
-            s.at[k] = imageLoad(splits, ivec3(k, row, 0)).r;
-        }
+#ifdef GN_BEFORE
+    for (int k = 1; k < u.params.layers; ++k) {
+        s.at[k] = imageLoad(splits_before, ivec3(k, row, 0)).r;
     }
+#endif
     if (prefix[GN_LVSM_BINS].x > 0.0) {
         for (int i = 0; i < u.params.iterations; ++i) {
             s = gn_lloyd_iterate(s, u.params.layers);
@@ -105,11 +108,6 @@ void main() {
     }
 }
 )";
-
-struct LloydConstants {
-    GnLvsmParams params;
-    int fresh;
-};
 
 std::string histogram_for(std::uint32_t samples) {
     // A multisampled map is judged by its first sample; textureSize has a level for the others only.
@@ -125,15 +123,17 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
     const TextureDesc source = graph.desc(depths);
 
     // Keep the splits over frames where there is a sequence.
-    bool fresh = true;
     TextureDesc desc{.name = fmt::format("lvsm splits {}", input.light_id),
                      .format = VK_FORMAT_R32_SFLOAT,
                      .width = static_cast<std::uint32_t>(params.layers) + 1,
                      .height = source.layers};
     TextureHandle splits;
+    TextureHandle before;
     if (input.history != nullptr) {
         desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-        splits = graph.import(input.history->texture(desc, fresh));
+        const History::Pair pair = input.history->pair(desc);
+        splits = graph.import(*pair.now);
+        before = pair.before != nullptr ? graph.import(*pair.before) : before;
     } else {
         splits = graph.create(desc);
     }
@@ -161,12 +161,22 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
         [&](PassBuilder& pass) {
             pass.storage_read(bins);
             pass.storage_write(splits);
+            if (before.valid()) {
+                pass.storage_read(before);
+            }
         },
         [=, layers = source.layers](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "lvsm-relax.comp", relax_text}});
+            static const std::array<ComputeDesc, 2> shaders{
+                sealed({.shader = {ShaderKind::compute, "lvsm-relax.comp", relax_text}}),
+                sealed({.shader = {ShaderKind::compute, "lvsm-relax.comp",
+                                   std::string("#define GN_BEFORE\n") + relax_text}})};
+            r.bind(shaders[before.valid() ? 1 : 0]);
+            if (before.valid()) {
+                r.set_storage("splits_before", before);
+            }
             r.set("Bins", bins);
             r.set_storage("splits", splits);
-            r.set_value("u", LloydConstants{params, fresh ? 1 : 0});
+            r.set_value("u", params);
             r.dispatch(layers, 1);
         });
     return splits;

@@ -27,9 +27,13 @@ struct KeptState {
     Fingerprint casting;        ///< of what the scene told of it
 };
 
-/// What casts, and how, that is told by the scene and not by its buffers.
-Fingerprint casting_of(const Scene& scene, const Light& light) {
+/// What casts, and how, that is told by the scene and not by its buffers; and what the map makes of it.
+Fingerprint casting_of(const Scene& scene, const Light& light, const Recipe& recipe) {
     Hasher hasher;
+    if (recipe.map != nullptr) {
+        const std::span<const std::byte> params = recipe.block(*recipe.map).bytes();
+        hasher.bytes(params.data(), params.size());
+    }
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Material& material = scene.materials[static_cast<std::size_t>(scene.objects[i].material)];
         hasher.value(casts(scene, i, &light)).value(material.double_sided).value(material.alpha_mode);
@@ -105,10 +109,12 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
                   std::span<const Window> windows, LightViews& views) {
     KeptViews kept;
     kept.history = input.history;
-    kept.name = fmt::format("light {} {} {} {} {}", input.light_id, recipe.name, recipe.overrides,
+    kept.name = fmt::format("light {} {} {} {}", input.light_id, recipe.name,
                             recipe.map != nullptr ? recipe.map->id : "", name_of(recipe.casters));
-    auto& state = input.history->value<KeptState>("cascades of " + kept.name);
-    const Fingerprint casting = casting_of(input.scene, input.light());
+    const std::string name = "cascades of " + kept.name;
+    const auto* before = input.history->before<KeptState>(name);
+    KeptState state = before != nullptr ? *before : KeptState{};
+    const Fingerprint casting = casting_of(input.scene, input.light(), recipe);
     if (state.version != input.handles.version || state.casting != casting || state.cascades.size() != windows.size()) {
         state = {std::vector<Kept>(windows.size()), input.handles.version, casting};
     }
@@ -142,6 +148,7 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
         views.views[i].layer = layer;
         last = {grid.view, first, true, stay ? last.frame : input.history->frame()};
     }
+    input.history->leave(name, std::move(state));
     views.kept = std::move(kept);
 }
 
