@@ -117,6 +117,7 @@ FrameResult render_smooth(Device& device, SceneGpu& gpu, const Camera& camera, c
     FrameResult result = render_frame(device, gpu, camera, recipe, options);
     const bool served =
         std::any_of(result.refused.begin(), result.refused.end(), [](const auto& r) { return r.empty(); });
+    options.samples = options.visibility = false;
     for (int k = 1; served && k < frames; ++k) {
         Camera moved = camera;
         moved.shift_cs = 2.0F * even_shift(k) / vec2(size.width, size.height);

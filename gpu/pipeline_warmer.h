@@ -38,6 +38,7 @@ class PipelineWarmer final : public Recorder {
     void draw_indexed(std::uint32_t, std::uint32_t, std::uint32_t, std::int32_t, std::uint32_t) override {}
     void draw_indexed(std::span<const VkDrawIndexedIndirectCommand>) override {}
     void draw_indirect(BufferHandle, VkDeviceSize) override {}
+    void draw_indexed_indirect(BufferHandle, VkDeviceSize, std::uint32_t) override {}
     void dispatch(std::uint32_t, std::uint32_t, std::uint32_t) override {}
     void dispatch_indirect(BufferHandle, VkDeviceSize) override {}
     void blit(TextureHandle, Range, TextureHandle, Range, VkFilter) override {}

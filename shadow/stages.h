@@ -5,6 +5,7 @@
 //                                  \______ direct (no map) ______/
 #pragma once
 
+#include "base/kept.h"
 #include "gpu/frame_graph.h"
 #include "shadow/light_view.h"
 #include "shadow/receiver/bias.h"
@@ -37,10 +38,14 @@ struct SceneGpu {
     /// What is drawn: no two uploads have the same. Whoever writes into the buffers above takes a new one from next_version;
     /// what frames keep of an older version is drawn anew.
     std::uint64_t version = 0;
+    /// What is derived of the geometry of this version: edges, planes, lists of what casts.
+    std::shared_ptr<Kept> derived = std::make_shared<Kept>();
 };
 /// A version that no geometry has had in this process.
 std::uint64_t next_version();
 SceneGpu upload_scene(Device& device, const Scene& scene);
+/// Brings positions and normals that moved on the CPU (shadow/scene/move.h) to the GPU, as a new version; waits for the device.
+void refresh_scene(Device& device, SceneGpu& scene);
 
 /// The scene's buffers in one frame's graph.
 struct SceneHandles {
@@ -48,6 +53,7 @@ struct SceneHandles {
     std::vector<TextureHandle> textures;
     TextureHandle white;
     std::uint64_t version = 0;  ///< SceneGpu::version
+    std::shared_ptr<Kept> derived;
 };
 
 /// The camera's constants for shaders (shadow/view/view.glsl has the same struct).
@@ -84,6 +90,7 @@ struct CpuSamples {
 };
 
 class History;
+class PreparedRecipe;
 
 /// What parts of all stages get to see of the frame.
 struct FrameInput {
@@ -97,9 +104,22 @@ struct FrameInput {
     History* history = nullptr;     ///< what earlier frames of the sequence kept; null for a single frame
     /// Where answers that come after the frame (FrameGraph::answer) say what it lacked; lives as long as they can come.
     std::set<std::string>* late_remarks = nullptr;
+    const PreparedRecipe* prepared = nullptr;  ///< what the recipe's frames share; null where one is drawn alone
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;
+    }
+    /// What `make` derives of the scene's geometry, kept with it under a name and a key that say all else that it depends on,
+    /// and held by the graph.
+    template <class Make>
+    std::shared_ptr<const std::invoke_result_t<Make>> derive(std::string_view name, std::uint64_t key,
+                                                             Make make) const {
+        if (handles.derived == nullptr) {
+            return std::make_shared<const std::invoke_result_t<Make>>(make());  // a scene that was never uploaded
+        }
+        auto value = handles.derived->get(handles.version, name, key, std::move(make));
+        graph.hold(value);
+        return value;
     }
 };
 

@@ -10,9 +10,8 @@ namespace gn::test {
 inline std::vector<float> visibility_of(const Scene& scene, const Recipe& recipe, uint pixels) {
     const ValidationGuard guard;
     SceneGpu gpu = upload_scene(device(), scene);
-    const FrameResult frame =
-        render_frame(device(), gpu, scene.camera(""), recipe,
-                     {.width = pixels, .height = pixels, .repeat = 1, .only_light = 0, .picture = false});
+    const FrameResult frame = render_frame(device(), gpu, scene.camera(""), recipe,
+                                           {.width = pixels, .height = pixels, .only_light = 0, .picture = false});
     EXPECT_EQ(frame.refused.front(), "");
     return frame.visibility.front().values;
 }

@@ -51,7 +51,7 @@ TEST_P(Memory, RowsEqualTheFormatsArithmetic) {
     SceneGpu gpu = upload_scene(test::device(), scene);
     const Recipe recipe = load_recipe(fmt::format("{},resolution={}", GetParam().recipe, side));
     const FrameResult frame = render_frame(test::device(), gpu, scene.cameras.front(), recipe,
-                                           {.width = 48, .height = 32, .repeat = 1, .only_light = 0, .picture = false});
+                                           {.width = 48, .height = 32, .only_light = 0, .picture = false});
     ASSERT_EQ(frame.refused.front(), "");
     std::map<std::string, VkDeviceSize> rows;
     for (const ResourceBytes& resource : frame.statistics.resources) {

@@ -48,9 +48,8 @@ inline Comparison compare(Scene scene, const std::string& recipe, const Comparis
     const ValidationGuard guard;
     Comparison c{.scene = std::move(scene)};
     SceneGpu gpu = upload_scene(device(), c.scene);
-    c.frame = render_frame(
-        device(), gpu, c.scene.camera(options.view), load_recipe(recipe),
-        {.width = options.width, .height = options.height, .repeat = 1, .only_light = 0, .picture = false});
+    c.frame = render_frame(device(), gpu, c.scene.camera(options.view), load_recipe(recipe),
+                           {.width = options.width, .height = options.height, .only_light = 0, .picture = false});
     EXPECT_EQ(c.frame.refused.front(), "");
     c.truth = Truth(c.scene).trace(c.frame.samples.position_ws, c.frame.samples.normal_ws, c.scene.lights.front(),
                                    {.samples = options.samples});

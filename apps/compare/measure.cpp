@@ -135,7 +135,7 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             light.errors =
                 visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
             weigh_errors(light.errors, frame.visibility[l].values, truth.visibility, truth.counted,
-                         unshadowed_illuminance(frame.samples, view.scene().lights[l].shape));
+                         unshadowed_illuminance(view.samples(), view.scene().lights[l].shape));
             const std::vector<std::uint8_t> explained = explained_acne(view, bench, recipe, frame.visibility[l], l);
             if (!explained.empty()) {
                 split_acne(light.errors, frame.visibility[l].values, truth.visibility, truth.counted, explained);
@@ -260,6 +260,7 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     frame_options.height = static_cast<uint>(run.height);
     frame_options.repeat = options.repeat;
     frame_options.only_light = view.only_light();
+    frame_options.samples = false;
     const FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.camera(), asked.recipe, frame_options);
 
     run.remarks = frame.remarks;

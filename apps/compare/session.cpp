@@ -201,7 +201,7 @@ const FrameResult* ViewSession::against(Bench& bench) {
         options.height = static_cast<uint>(options_.size.height);
         options.repeat = 0;
         options.only_light = only_light_;
-        options.picture = false;
+        options.samples = options.picture = false;
         try {
             against_frame_ = render_frame(bench.device(), gpu(bench), camera_, *against_, options);
         } catch (const Error& error) {

@@ -13,16 +13,26 @@ struct CasterFaces {
     bool depth_only = false;
 };
 
-struct CasterDraw {
+/// What the passes of all views share.
+struct CasterJob {
     CasterPass pass;
-    Recipe recipe;
+    Casters kept = Casters::all;
     LightViews views;  ///< what the shaders see; `layered` draws all of them
     SceneHandles handles;
     const Scene* scene = nullptr;
     const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
-    std::size_t view = 0;          ///< index of the view; with tiles the layer
-    BufferHandle tile_draws;       ///< add_tile_draws, with tiles
-    ShaderInputs view_inputs;      ///< of `views`
+    const PreparedRecipe* prepared = nullptr;
+    ShaderInputs view_inputs;          ///< of `views`
+    BufferHandle tile_draws;           ///< add_tile_draws, with tiles
+    std::vector<TextureHandle> masks;  ///< base colour textures of alpha-tested materials
+    std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders
+};
+std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
+                                            const CasterPass& pass);
+
+struct CasterDraw {
+    std::shared_ptr<const CasterJob> job;
+    std::size_t view = 0;  ///< index of the view; with tiles the layer
 
     /// What a pass must declare besides its attachments.
     void declare(PassBuilder& builder) const;
@@ -33,7 +43,7 @@ struct CasterDraw {
     /// What is drawn: the view's objects that cast.
     [[nodiscard]] std::vector<std::uint32_t> objects() const;
     [[nodiscard]] std::uint32_t instances() const {
-        return views.layered ? static_cast<std::uint32_t>(views.views.size()) : 1;
+        return job->views.layered ? static_cast<std::uint32_t>(job->views.views.size()) : 1;
     }
     void begin(Recorder& r, const CasterFaces& faces, bool masked) const;
     void draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;

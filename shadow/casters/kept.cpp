@@ -57,7 +57,7 @@ RasterDesc unwrap_pipeline(bool color) {
                          "    gl_FragDepth = texelFetch(kept_depth, " + texel + ".r;\n");
 }
 
-/// Draws rectangles of one kept layer anew.
+/// Draws rectangles of one kept layer anew. The pass is there in every frame, so that all frames have one plan.
 void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass,
                const KeptTextures& textures, std::uint32_t layer, const std::vector<KeptDraw>& draws) {
     LightViews tiles = views;
@@ -69,7 +69,7 @@ void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& 
         tiles.views.push_back(draw.view);
         tiles.casters.push_back(draw.casters);
     }
-    CasterDraw drawn{pass, recipe, tiles, input.handles, &input.scene, &input.light(), 0, {}, view_inputs(tiles)};
+    const CasterDraw drawn{caster_job(input, recipe, std::move(tiles), pass)};
     input.graph.add_pass(
         pass.name,
         [&](PassBuilder& builder) {
@@ -84,8 +84,8 @@ void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& 
             for (tile.view = 0; tile.view < draws.size(); ++tile.view) {
                 const ivec4 rect = draws[tile.view].rect;
                 r.scissor(rect.x, rect.y, static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
-                r.bind(clear_pipeline(tile.pass.color.valid()));
-                r.push_value(tile.pass.clear_color.color);
+                r.bind(clear_pipeline(tile.job->pass.color.valid()));
+                r.push_value(tile.job->pass.clear_color.color);
                 r.draw(3);
                 tile.record(r);
             }
@@ -137,9 +137,7 @@ void add_kept_passes(const FrameInput& input, const Recipe& recipe, const LightV
     const KeptTextures textures = import_kept(input, kept, pass);
     for (std::size_t i = 0; i < kept.layers.size(); ++i) {
         const std::vector<KeptDraw>& draws = textures.fresh ? kept.layers[i].whole : kept.layers[i].revealed;
-        if (!draws.empty()) {
-            add_draws(input, recipe, views, pass, textures, static_cast<std::uint32_t>(i), draws);
-        }
+        add_draws(input, recipe, views, pass, textures, static_cast<std::uint32_t>(i), draws);
     }
     for (std::size_t i = 0; i < kept.layers.size(); ++i) {
         add_unwrap(input, views, pass, textures, static_cast<std::uint32_t>(i), kept.layers[i].shift);

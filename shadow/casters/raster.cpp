@@ -4,6 +4,7 @@
 #include "shadow/casters/caster_pipeline.h"
 #include "shadow/casters/tiles.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
@@ -28,6 +29,24 @@ std::vector<ViewPass> view_passes(const LightViews& views) {
     return passes;
 }
 
+namespace {
+
+std::uint64_t key_of(const CasterJob& job, const CasterVariant& variant) {
+    return Hasher()
+        .value(job.shader_key)
+        .value(variant.masked)
+        .value(variant.kind)
+        .value(variant.layered)
+        .value(variant.tiles)
+        .value(variant.faces.culled)
+        .value(variant.faces.pushed)
+        .value(variant.faces.depth_only)
+        .finish()
+        .low;
+}
+
+}  // namespace
+
 void set_viewport(Recorder& r, const GnLightView& view) {
     const float n = view.resolution;
     r.viewport(view.rect_ts.x * n, view.rect_ts.y * n, view.rect_ts.z * n, view.rect_ts.w * n);
@@ -36,28 +55,32 @@ void set_viewport(Recorder& r, const GnLightView& view) {
 }
 
 void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const {
-    r.bind(caster_pipeline(pass, {masked, views.kind, views.layered && !views.tiles, views.tiles, faces}));
+    const LightViews& views = job->views;
+    const CasterVariant variant{masked, views.kind, views.layered && !views.tiles, views.tiles, faces};
+    r.bind(*made_once(job->prepared, "caster pipeline", key_of(*job, variant),
+                      [&] { return sealed(caster_pipeline(job->pass, variant)); }));
     r.depth_bias(push_units, push_pixels);
-    view_inputs.set(r);
-    pass.fragment.inputs.set(r);
-    r.vertex_buffer(handles.positions);
-    r.index_buffer(handles.indices);
+    job->view_inputs.set(r);
+    job->pass.fragment.inputs.set(r);
+    r.vertex_buffer(job->handles.positions);
+    r.index_buffer(job->handles.indices);
 }
 
 void CasterDraw::opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
-    if (pass.by_object || views.tiles) {
+    if (job->pass.by_object || job->views.tiles) {
         opaque_one_by_one(r, faces, objects);
         return;
     }
-    const std::vector<DrawRange> runs = opaque_runs(*scene, objects);
-    if (runs.empty()) {
+    std::vector<VkDrawIndexedIndirectCommand> draws;
+    for (const DrawRange& run : opaque_runs(*job->scene, objects)) {
+        draws.push_back({run.index_count, instances(), run.first_index, 0, 0});
+    }
+    if (draws.empty()) {
         return;
     }
     begin(r, faces, false);
     r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, -1});
-    for (const DrawRange& run : runs) {
-        r.draw_indexed(run.index_count, instances(), run.first_index);
-    }
+    r.draw_indexed(draws);
 }
 
 void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
@@ -67,8 +90,8 @@ void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
     }
     begin(r, faces, false);
     for (const std::uint32_t index : objects) {
-        const Object& object = scene->objects[index];
-        if (!is_masked(*scene, object)) {
+        const Object& object = job->scene->objects[index];
+        if (!is_masked(*job->scene, object)) {
             r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index)});
             draw_object(r, index);
         }
@@ -76,17 +99,17 @@ void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
 }
 
 void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
-    const std::vector<std::uint32_t> masked = masked_objects(*scene, objects);
+    const std::vector<std::uint32_t> masked = masked_objects(*job->scene, objects);
     if (masked.empty()) {
         return;
     }
     begin(r, faces, true);
-    r.set("Uvs", handles.uvs);
-    r.set("Colors", handles.colors);
+    r.set("Uvs", job->handles.uvs);
+    r.set("Colors", job->handles.colors);
     for (const std::uint32_t index : masked) {
-        const Object& object = scene->objects[index];
-        const Material& material = scene->materials[static_cast<std::size_t>(object.material)];
-        const BaseColor color = base_color(*scene, handles, material);
+        const Object& object = job->scene->objects[index];
+        const Material& material = job->scene->materials[static_cast<std::size_t>(object.material)];
+        const BaseColor color = base_color(*job->scene, job->handles, material);
         const AlphaTest test = alpha_test(material);
         r.set("base_color_texture", color.texture, color.sampler);
         r.push_value(CasterPush{static_cast<int>(view), test.base_alpha, test.cutoff, static_cast<int>(index)});
@@ -95,27 +118,27 @@ void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const s
 }
 
 void CasterDraw::draw_object(Recorder& r, std::uint32_t index) const {
-    if (views.tiles) {
-        r.draw_indexed_indirect(tile_draws, index * sizeof(VkDrawIndexedIndirectCommand));
+    if (job->views.tiles) {
+        r.draw_indexed_indirect(job->tile_draws, index * sizeof(VkDrawIndexedIndirectCommand));
         return;
     }
-    const Object& object = scene->objects[index];
+    const Object& object = job->scene->objects[index];
     r.draw_indexed(object.triangle_count * 3, instances(), object.first_triangle * 3);
 }
 
 std::vector<std::uint32_t> CasterDraw::objects() const {
-    if (views.casters.empty()) {
-        return casters(*scene, *light);
+    if (job->views.casters.empty()) {
+        return casters(*job->scene, *job->light);
     }
     // One pass for all views draws what any of them needs.
-    const bool all = views.layered || views.tiles;
+    const bool all = job->views.layered || job->views.tiles;
     std::vector<std::uint32_t> found;
-    for (std::size_t i = all ? 0 : view; i <= (all ? views.casters.size() - 1 : view); ++i) {
-        found.insert(found.end(), views.casters[i].begin(), views.casters[i].end());
+    for (std::size_t i = all ? 0 : view; i <= (all ? job->views.casters.size() - 1 : view); ++i) {
+        found.insert(found.end(), job->views.casters[i].begin(), job->views.casters[i].end());
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    std::erase_if(found, [&](std::uint32_t object) { return !casts(*scene, object, light); });
+    std::erase_if(found, [&](std::uint32_t object) { return !casts(*job->scene, object, job->light); });
     return found;
 }
 
@@ -128,8 +151,8 @@ void CasterDraw::record(Recorder& r) const {
     constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
     constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
     const std::vector<std::uint32_t> drawn = objects();
-    if (recipe.casters == Casters::front || recipe.casters == Casters::back) {
-        draw(r, recipe.casters == Casters::front ? fronts : backs, drawn);
+    if (job->kept == Casters::front || job->kept == Casters::back) {
+        draw(r, job->kept == Casters::front ? fronts : backs, drawn);
         return;
     }
 
@@ -137,9 +160,10 @@ void CasterDraw::record(Recorder& r) const {
     std::vector<std::uint32_t> both;
     std::vector<std::uint32_t> one;
     for (const std::uint32_t object : drawn) {
-        (is_single_sided(*scene, scene->objects[object]) && !pass.every_side ? one : both).push_back(object);
+        (is_single_sided(*job->scene, job->scene->objects[object]) && !job->pass.every_side ? one : both)
+            .push_back(object);
     }
-    if (!pass.by_object) {
+    if (!job->pass.by_object) {
         draw(r, {}, both);
         draw(r, fronts, one);
         return;
@@ -153,16 +177,51 @@ void CasterDraw::record(Recorder& r) const {
 }
 
 void CasterDraw::declare(PassBuilder& builder) const {
-    builder.vertices(handles.positions);
-    builder.indices(handles.indices);
-    builder.storage_read(handles.uvs);
-    builder.storage_read(handles.colors);
-    sample_textures(builder, handles);
-    view_inputs.declare(builder);
-    if (views.tiles) {
-        builder.indirect(tile_draws);
+    builder.vertices(job->handles.positions);
+    builder.indices(job->handles.indices);
+    builder.storage_read(job->handles.uvs);
+    builder.storage_read(job->handles.colors);
+    for (const TextureHandle mask : job->masks) {
+        builder.sample(mask);
     }
-    pass.fragment.inputs.declare(builder);
+    job->view_inputs.declare(builder);
+    if (job->views.tiles) {
+        builder.indirect(job->tile_draws);
+    }
+    job->pass.fragment.inputs.declare(builder);
+}
+
+namespace {
+
+/// The base colour textures of alpha-tested materials, by their index; -1 is white.
+std::vector<int> masks_of(const Scene& scene) {
+    std::vector<int> masks;
+    for (const Material& material : scene.materials) {
+        if (material.alpha_mode != AlphaMode::opaque) {
+            masks.push_back(material.base_color_texture);
+        }
+    }
+    std::sort(masks.begin(), masks.end());
+    masks.erase(std::unique(masks.begin(), masks.end()), masks.end());
+    return masks;
+}
+
+}  // namespace
+
+std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
+                                            const CasterPass& pass) {
+    const BufferHandle tile_draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};
+    const ShaderInputs inputs = view_inputs(views);
+    auto job = std::make_shared<CasterJob>(CasterJob{pass, recipe.casters, std::move(views), input.handles,
+                                                     &input.scene, &input.light(), input.prepared, inputs, tile_draws});
+    for (const int mask : masks_of(input.scene)) {
+        job->masks.push_back(mask < 0 ? input.handles.white : input.handles.textures[static_cast<std::size_t>(mask)]);
+    }
+    Hasher hasher;
+    hasher.text(pass.name).text(pass.fragment.includes).text(pass.fragment.body);
+    pass.fragment.inputs.hash(hasher);
+    job->shader_key = hasher.finish().low;
+    return job;
 }
 
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {
@@ -170,12 +229,11 @@ void add_caster_passes(const FrameInput& input, const Recipe& recipe, const Ligh
         add_kept_passes(input, recipe, views, pass);
         return;
     }
-    const BufferHandle tile_draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};
+    const std::shared_ptr<const CasterJob> job = caster_job(input, recipe, views, pass);
     for (const ViewPass& view : view_passes(views)) {
         const Load load = view.first_of_layer ? Load::clear : Load::keep;
         const Range range = views.layered && !views.tiles ? Range{0, 1, 0, views.layers} : one_layer(view.layer);
-        const CasterDraw draw{pass,           recipe,     views,      input.handles,     &input.scene,
-                              &input.light(), view.index, tile_draws, view_inputs(views)};
+        const CasterDraw draw{job, view.index};
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {
@@ -186,8 +244,8 @@ void add_caster_passes(const FrameInput& input, const Recipe& recipe, const Ligh
                 draw.declare(builder);
             },
             [draw](Recorder& r) {
-                if (!draw.views.tiles) {
-                    set_viewport(r, draw.views.views[draw.view]);
+                if (!draw.job->views.tiles) {
+                    set_viewport(r, draw.job->views.views[draw.view]);
                 }
                 draw.record(r);
             });

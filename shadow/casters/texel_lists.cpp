@@ -13,15 +13,9 @@ namespace {
 
 /// Values that the lists of a name needed in the last frame whose answer came; null without a sequence.
 std::shared_ptr<std::uint32_t> needed_values(const FrameInput& input, const std::string& name) {
-    if (input.history == nullptr) {
-        return {};
-    }
-    auto& kept = input.history->value<std::shared_ptr<std::uint32_t>>(
-        fmt::format("list values of {} of light {}", name, input.light_id));
-    if (!kept) {
-        kept = std::make_shared<std::uint32_t>(0);
-    }
-    return kept;
+    return input.history != nullptr
+               ? input.history->answered(fmt::format("list values of {} of light {}", name, input.light_id))
+               : nullptr;
 }
 
 }  // namespace

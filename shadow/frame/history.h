@@ -8,6 +8,7 @@
 #include <any>
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace gn {
@@ -54,6 +55,13 @@ class History {
     template <class Value>
     void leave(const std::string& name, Value value) {
         values_[name].now = std::move(value);
+    }
+    /// A number of this name that the answers of frames write (FrameGraph::answer) and later frames read: 0 until one came.
+    std::shared_ptr<std::uint32_t> answered(const std::string& name) {
+        const auto* kept = before<std::shared_ptr<std::uint32_t>>(name);
+        auto number = kept != nullptr ? *kept : std::make_shared<std::uint32_t>(0);
+        leave(name, number);
+        return number;
     }
 
   private:

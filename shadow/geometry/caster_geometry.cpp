@@ -1,93 +1,98 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/geometry/caster_geometry.h"
 
+#include "gpu/hash.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
-#include <bit>
-#include <cstring>
+#include <algorithm>
 #include <limits>
 
 namespace gn {
 
 namespace {
 
-// The smallest and the largest alpha that any lookup into the texture can give.
-std::pair<float, float> alpha_range(const Scene& scene, const Material& material) {
-    if (material.base_color_texture < 0) {
-        return {material.base_color.a, material.base_color.a};
-    }
-    const auto& rgba = scene.textures[static_cast<std::size_t>(material.base_color_texture)].image.rgba;
-    std::uint8_t low = 255, high = 0;
+struct AlphaRange {
+    float low = 1, high = 1;
+};
+
+// The smallest and the largest alpha that any lookup into a texture can give, of 255.
+AlphaRange alpha_range(const Texture& texture) {
+    const std::vector<std::uint8_t>& rgba = texture.image.rgba;
+    std::uint8_t low = 255, high = rgba.size() < 4 ? 255 : 0;
     for (std::size_t i = 3; i < rgba.size(); i += 4) {
         low = std::min(low, rgba[i]);
         high = std::max(high, rgba[i]);
     }
-    if (rgba.size() < 4) {
-        low = high = 255;
-    }
-    return {material.base_color.a * static_cast<float>(low) / 255.0F,
-            material.base_color.a * static_cast<float>(high) / 255.0F};
+    return {static_cast<float>(low), static_cast<float>(high)};
 }
 
 // The same of an object's vertices.
-std::pair<float, float> vertex_alpha_range(const Scene& scene, const Object& object) {
-    if (scene.colors.empty()) {
-        return {1.0F, 1.0F};
-    }
-    float low = std::numeric_limits<float>::max(), high = 0.0F;
+AlphaRange alpha_range(const Scene& scene, const Object& object) {
+    AlphaRange range{std::numeric_limits<float>::max(), 0};
     for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
         const uvec3 t = scene.triangles[object.first_triangle + i];
         for (int corner = 0; corner < 3; ++corner) {
-            low = std::min(low, scene.colors[t[corner]].a);
-            high = std::max(high, scene.colors[t[corner]].a);
+            range.low = std::min(range.low, scene.colors[t[corner]].a);
+            range.high = std::max(range.high, scene.colors[t[corner]].a);
         }
     }
-    return {low, high};
+    return range;
 }
 
-CasterKind kind_of(const Scene& scene, const Object& object, std::pair<float, float> of_material) {
-    const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+// Of all textures and, where vertices have colours, of all objects: what takes long to find and changes with the upload.
+struct AlphaRanges {
+    std::vector<AlphaRange> textures, objects;
+};
+AlphaRanges alpha_ranges(const Scene& scene) {
+    AlphaRanges ranges;
+    for (const Texture& texture : scene.textures) {
+        ranges.textures.push_back(alpha_range(texture));
+    }
+    for (std::size_t i = 0; !scene.colors.empty() && i < scene.objects.size(); ++i) {
+        ranges.objects.push_back(alpha_range(scene, scene.objects[i]));
+    }
+    return ranges;
+}
+
+CasterKind kind_of(const Scene& scene, std::size_t object, const AlphaRanges& ranges) {
+    const Material& material = scene.materials[static_cast<std::size_t>(scene.objects[object].material)];
     if (material.alpha_mode == AlphaMode::opaque) {
         return CasterKind::opaque;
     }
-    const auto [low, high] = vertex_alpha_range(scene, object);
-    const float cutoff = alpha_test(material).cutoff;
-    if (low * of_material.first >= cutoff) {
+    const int texture = material.base_color_texture;
+    const float base = material.base_color.a, cutoff = alpha_test(material).cutoff;
+    AlphaRange worn{base, base};
+    if (texture >= 0) {
+        const AlphaRange texels = ranges.textures[static_cast<std::size_t>(texture)];
+        worn = {base * texels.low / 255.0F, base * texels.high / 255.0F};
+    }
+    const AlphaRange own = ranges.objects.empty() ? AlphaRange{} : ranges.objects[object];
+    if (own.low * worn.low >= cutoff) {
         return CasterKind::opaque;
     }
-    return high * of_material.second < cutoff ? CasterKind::absent : CasterKind::masked;
-}
-
-// A multiplicative mix of eight bytes at a time; the tail is padded with zeros.
-std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t bytes) {
-    const auto* at = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < bytes; i += 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, at + i, std::min<std::size_t>(8, bytes - i));
-        hash = std::rotl((hash ^ word) * 0x9E3779B97F4A7C15ULL, 29) * 0xBF58476D1CE4E5B9ULL;
-    }
-    return hash ^ (hash >> 31U);
+    return own.high * worn.high < cutoff ? CasterKind::absent : CasterKind::masked;
 }
 
 }  // namespace
 
-std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light) {
-    // Look through each texture once, however many objects wear it.
-    std::vector<std::pair<float, float>> of_material;
-    of_material.reserve(scene.materials.size());
-    for (const Material& material : scene.materials) {
-        of_material.push_back(alpha_range(scene, material));
-    }
+std::vector<CasterKind> caster_kinds(const FrameInput& input) {
+    const Scene& scene = input.scene;
+    const auto ranges = input.derive("alpha ranges", 0, [&] { return alpha_ranges(scene); });
     std::vector<CasterKind> kinds;
     kinds.reserve(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const Object& object = scene.objects[i];
-        kinds.push_back(casts(scene, i, &light)
-                            ? kind_of(scene, object, of_material[static_cast<std::size_t>(object.material)])
-                            : CasterKind::absent);
+        kinds.push_back(casts(scene, i, &input.light()) ? kind_of(scene, i, *ranges) : CasterKind::absent);
     }
     return kinds;
+}
+
+std::uint64_t casters_key(const Scene& scene, const std::vector<CasterKind>& kinds) {
+    Hasher hasher;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        hasher.value(static_cast<std::uint64_t>(kinds[i]) + (is_single_sided(scene, scene.objects[i]) ? 4 : 0));
+    }
+    return hasher.finish().low;
 }
 
 CasterSides split_sides(const Scene& scene, const std::vector<CasterKind>& kinds) {
@@ -117,12 +122,6 @@ std::vector<TriangleRun> opaque_caster_runs(const Scene& scene, const std::vecto
 vec4 light_point_ws(const GnLight& light) {
     return light.kind == uint(GN_LIGHT_DIRECTIONAL) ? vec4(-vec3(light.direction_ws), 0.0F)
                                                     : vec4(vec3(light.position_ws), 1.0F);
-}
-
-std::uint64_t geometry_hash(const Scene& scene, std::uint64_t salt) {
-    std::uint64_t hash = mix(0x243F6A8885A308D3ULL, &salt, sizeof salt);
-    hash = mix(hash, scene.positions_ws.data(), scene.positions_ws.size() * sizeof(vec3));
-    return mix(hash, scene.triangles.data(), scene.triangles.size() * sizeof(uvec3));
 }
 
 }  // namespace gn

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the parts without a map share: which objects cast, the light as one homogeneous point, results kept per
-// geometry.
+// What the parts without a map share: which objects cast, and the light as one homogeneous point.
 #pragma once
 
-#include "shadow/scene/scene.h"
+#include "shadow/stages.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 namespace gn {
@@ -20,8 +15,10 @@ enum class CasterKind : std::uint8_t {
     masked,  ///< where its texture's alpha reaches the cutoff
     absent,  ///< nowhere: its alpha lies below the cutoff everywhere, or it casts no shadow of this light
 };
-/// One entry an object. Blended materials count as masked with cutoff 0.5.
-std::vector<CasterKind> caster_kinds(const Scene& scene, const Light& light);
+/// One entry an object. Blended materials count as masked with cutoff 0.5. The input's light decides which objects it spares.
+std::vector<CasterKind> caster_kinds(const FrameInput& input);
+/// One number for what casts and from which sides: a key of what is derived of it.
+std::uint64_t casters_key(const Scene& scene, const std::vector<CasterKind>& kinds);
 
 /// The kinds of two-sided objects and those of one-sided ones, the others absent.
 struct CasterSides {
@@ -37,31 +34,5 @@ std::vector<TriangleRun> opaque_caster_runs(const Scene& scene, const std::vecto
 
 /// Where the light is, ws: w = 1 a point (the centre of an area light), w = 0 the direction towards the sun.
 vec4 light_point_ws(const GnLight& light);
-
-/// A fingerprint of positions, triangles and `salt`: equal geometry, equal number.
-std::uint64_t geometry_hash(const Scene& scene, std::uint64_t salt);
-
-/// Keeps the few latest values by fingerprint; safe to use from several threads.
-template <class Value>
-class GeometryCache {
-  public:
-    template <class Make>
-    std::shared_ptr<const Value> get(std::uint64_t key, Make make) {
-        const std::lock_guard lock(mutex_);
-        const auto found =
-            std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e.first == key; });
-        if (found != entries_.end()) {
-            std::rotate(entries_.begin(), found, found + 1);
-            return entries_.front().second;
-        }
-        entries_.insert(entries_.begin(), {key, std::make_shared<const Value>(make())});
-        entries_.resize(std::min<std::size_t>(entries_.size(), 4));
-        return entries_.front().second;
-    }
-
-  private:
-    std::mutex mutex_;
-    std::vector<std::pair<std::uint64_t, std::shared_ptr<const Value>>> entries_;
-};
 
 }  // namespace gn

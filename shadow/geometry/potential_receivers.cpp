@@ -27,7 +27,8 @@ std::vector<Plane> frustum_of(const FrameInput& input, double near, double far) 
 }  // namespace
 
 Box seen_bounds(const FrameInput& input) {
-    const std::vector<Box> clusters = cluster_bounds(input.scene);
+    const auto kept = input.derive("cluster bounds", 0, [&] { return cluster_bounds(input.scene); });
+    const std::vector<Box>& clusters = *kept;
     if (clusters.size() == 1) {
         return clusters.front();
     }

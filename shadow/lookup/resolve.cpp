@@ -4,6 +4,7 @@
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -98,7 +99,7 @@ ShaderInputs inputs_of(const FrameInput& input, const Recipe& recipe, const Ligh
         inputs.texture("sampler2DArray", offer_name(offer.name), offer.texture, offer.sampler);
     }
     if (recipe.casters == Casters::ids) {
-        inputs.texture("sampler2D", "gbuffer_material", input.samples.material);
+        inputs.texture("sampler2D", "gbuffer_material", lent(input.samples.material, "material"));
     }
     for (const auto& [part, name] : {std::pair{recipe.lookup, "lookup_params"}, {recipe.map, "map_params"}}) {
         if (!part->params_type.empty()) {
@@ -129,6 +130,14 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
             lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
 }
 
+/// All that a recipe's resolve shader depends on from light to light.
+std::uint64_t shader_key(const Recipe& recipe, const LightViews& views, const ShaderInputs& inputs) {
+    Hasher hasher;
+    hasher.text(views.part->id).text(receiver_defines(recipe, views)).value(views.crosses).value(views.views.size());
+    inputs.hash(hasher);
+    return hasher.finish().low;
+}
+
 }  // namespace
 
 TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples) {
@@ -138,23 +147,24 @@ TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples) {
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     const Visibility result{create_visibility(input.graph, input.samples)};
-    const ViewSamples& samples = input.samples;
     const ivec4 lit = lit_pixels(input);
 
-    // No sample counts beyond the pixels that the light can reach.
-    if (lit != ivec4(0, 0, samples.width, samples.height)) {
+    // No sample counts beyond the pixels that the light can reach, which may be all of them in one frame and few in the next.
+    if (input.light().shape.kind != GN_LIGHT_DIRECTIONAL) {
         input.graph.add_pass(
             "lookup: dark", [&](PassBuilder& pass) { pass.color(result.image, Load::clear); }, [](Recorder&) {});
     }
     ShaderInputs inputs = inputs_of(input, recipe, views, map);
     inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
+    const auto shader = made_once(input.prepared, "resolve", shader_key(recipe, views, inputs),
+                                  [&] { return sealed(resolve_shader(input, recipe, views, map, inputs)); });
     input.graph.add_pass(
         "lookup", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader = resolve_shader(input, recipe, views, map, inputs), lit](Recorder& r) {
+        [inputs, shader, lit](Recorder& r) {
             if (lit.z == 0 || lit.w == 0) {
                 return;
             }
-            r.bind(shader);
+            r.bind(*shader);
             inputs.set(r);
             r.push_value(ivec2(lit));
             r.dispatch_pixels(static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));

@@ -75,10 +75,10 @@ LightViews place_on_gpu(const FrameInput& input, const Recipe& recipe) {
 
     // How many layers the tiles need is answered to the next frame; the first takes one a view.
     if (made.tiles && input.history != nullptr) {
-        auto& known = input.history->value<std::uint32_t>("needed layers");
-        views.layers = known != 0 ? known : static_cast<std::uint32_t>(seeds.views.size());
+        const std::shared_ptr<std::uint32_t> known = input.history->answered("needed layers");
+        views.layers = *known != 0 ? *known : static_cast<std::uint32_t>(seeds.views.size());
         made.layers->push_back(views.layers);
-        graph.answer(needed, [&known](std::span<const std::byte> bytes) { std::memcpy(&known, bytes.data(), 4); });
+        graph.answer(needed, [known](std::span<const std::byte> bytes) { std::memcpy(known.get(), bytes.data(), 4); });
     }
 
     ShaderInputs inputs;

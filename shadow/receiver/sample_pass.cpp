@@ -93,6 +93,16 @@ void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& 
     inputs.texels(device, VK_FORMAT_R32G32B32A32_SFLOAT, "2D", "gbuffer_normal", samples.normal);
 }
 
+TextureHandle lent(TextureHandle texture, std::string_view what) {
+    if (!texture.valid()) {
+        refuse(
+            "the recipe reads the {} of the receivers, and the host lends none; positions and normals alone serve "
+            "other recipes",
+            what);
+    }
+    return texture;
+}
+
 ivec4 lit_pixels(const FrameInput& input) {
     const ivec2 size(static_cast<int>(input.samples.width), static_cast<int>(input.samples.height));
     if (input.light().shape.kind == GN_LIGHT_DIRECTIONAL) {

@@ -35,6 +35,9 @@ std::string sample_functions(const Part& placement);
 /// Adds gbuffer_position and gbuffer_normal to what a shader reads, texel by texel.
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples);
 
+/// One of the view samples' textures, called `what` in the sentence. Throws Refusal where a host's own receivers lack it.
+TextureHandle lent(TextureHandle texture, std::string_view what);
+
 /// The pixels, x, y, width and height, beyond which no sample of the view counts for the light.
 ivec4 lit_pixels(const FrameInput& input);
 

@@ -47,6 +47,9 @@ struct Object {
     Box bounds_ws;
     std::optional<bool> casts;  ///< told to cast, or not to; unset: as the material does
     bool receives = true;       ///< false: no shadow falls on it, and it is left out of the errors
+    std::uint64_t version = 0;  ///< of its geometry: another one after every move (shadow/scene/move.h)
+    Box before_ws;              ///< its bounds before the latest move; empty where it never moved
+    mat4 before_from_now{1};    ///< ws: where its points were before that move
 };
 
 /// Names of the light kinds, by GnLight::kind.

@@ -52,6 +52,12 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     return gpu;
 }
 
+void refresh_scene(Device& device, SceneGpu& scene) {
+    write_buffer(device, scene.positions, std::as_bytes(std::span(scene.scene->positions_ws)));
+    write_buffer(device, scene.normals, std::as_bytes(std::span(scene.scene->normals_ws)));
+    scene.version = next_version();
+}
+
 SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
     SceneHandles handles{.positions = graph.import(scene.positions),
                          .normals = graph.import(scene.normals),
@@ -63,6 +69,7 @@ SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
     }
     handles.white = graph.import(scene.white);
     handles.version = scene.version;
+    handles.derived = scene.derived;
     return handles;
 }
 

@@ -4,6 +4,7 @@
 // How exact are the positions? The interpolated position is moved along the triangle's exact normal into the triangle's
 // plane (the vertices are the very floats that the truth traces), so what remains is rounding: less than four units in
 // the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
+#include "gpu/vk_names.h"
 #include "shadow/frame/frame.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
@@ -129,18 +130,6 @@ RasterDesc gbuffer_pipeline(const Faces& faces) {
     return desc;
 }
 
-GnViewConstants view_constants(const Camera& camera, uint width, uint height) {
-    const mat4 from_ws = vs_from_ws(camera);
-    const mat4 rows = glm::transpose(from_ws);
-    const double pixel = 2 * half_height_at(camera, 1) / height;
-    return {.cs_from_ws = cs_from_vs(camera, static_cast<float>(width) / static_cast<float>(height)) * from_ws,
-            .eye_ws = eye_of(camera),
-            .axis_ws = -rows[2],
-            .right_ws = vec4(pixel * dvec3(rows[0]), 0),
-            .down_ws = vec4(-pixel * dvec3(rows[1]), 0),
-            .size = uvec4(width, height, 0, 0)};
-}
-
 TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint width, uint height) {
     return graph.create({.name = name, .format = format, .width = width, .height = height});
 }
@@ -163,6 +152,35 @@ void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, 
 }
 
 }  // namespace
+
+GnViewConstants view_constants(const Camera& camera, uint width, uint height) {
+    const mat4 from_ws = vs_from_ws(camera);
+    const mat4 rows = glm::transpose(from_ws);
+    const double pixel = 2 * half_height_at(camera, 1) / height;
+    return {.cs_from_ws = cs_from_vs(camera, static_cast<float>(width) / static_cast<float>(height)) * from_ws,
+            .eye_ws = eye_of(camera),
+            .axis_ws = -rows[2],
+            .right_ws = vec4(pixel * dvec3(rows[0]), 0),
+            .down_ws = vec4(-pixel * dvec3(rows[1]), 0),
+            .size = uvec4(width, height, 0, 0)};
+}
+
+ViewSamples lent_samples(const FrameGraph& graph, const Camera& camera, TextureHandle position, TextureHandle normal) {
+    const TextureDesc& size = graph.desc(position);
+    for (const TextureHandle texture : {position, normal}) {
+        const TextureDesc& desc = graph.desc(texture);
+        if (desc.format != VK_FORMAT_R32G32B32A32_SFLOAT || desc.width != size.width || desc.height != size.height) {
+            fail("lent texture '{}' of {} x {} in {}: positions and normals are rgba32f, both of {} x {}", desc.name,
+                 desc.width, desc.height, format_name(desc.format), size.width, size.height);
+        }
+    }
+    return {.width = size.width,
+            .height = size.height,
+            .camera = camera,
+            .constants = view_constants(camera, size.width, size.height),
+            .position = position,
+            .normal = normal};
+}
 
 ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const SceneHandles& handles,
                              const Camera& camera, uint width, uint height) {

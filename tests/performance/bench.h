@@ -53,5 +53,6 @@ void lookups(Bench& bench);
 void placements(Bench& bench);
 void filters(Bench& bench);
 void inlined(Bench& bench);
+void recording(Bench& bench);
 
 }  // namespace gn::performance

@@ -6,8 +6,10 @@
 // Also here: planar_planes.h, planar_planes.cpp.
 #include "shadow/direct/planar/planar.h"
 
+#include "gpu/hash.h"
 #include "shadow/direct/planar/planar_planes.h"
 #include "shadow/geometry/caster_geometry.h"
+#include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/recipe.h"
 #include "shadow/view/draw.h"
 
@@ -118,7 +120,7 @@ void add_receivers(const FrameInput& input, const std::vector<GnPlanarFrame>& pl
         "planar: receivers",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
-            pass.depth_read_only(input.samples.depth);
+            pass.depth_read_only(lent(input.samples.depth, "depth"));
             pass.sample(input.samples.position);
             pass.sample(input.samples.normal);
         },
@@ -161,12 +163,12 @@ void draw_casters(Recorder& r, const Scene& scene, const SceneHandles& handles, 
 }
 
 void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
-    const CasterSides sides = split_sides(input.scene, caster_kinds(input.scene, input.light()));
+    const CasterSides sides = split_sides(input.scene, caster_kinds(input));
     input.graph.add_pass(
         "planar: casters",
         [&](PassBuilder& pass) {
             pass.color(image, Load::keep);
-            pass.depth_read_only(input.samples.depth);
+            pass.depth_read_only(lent(input.samples.depth, "depth"));
             pass.indices(input.handles.indices);
             pass.storage_read(input.handles.positions);
             pass.storage_read(input.handles.uvs);
@@ -202,7 +204,16 @@ void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& plan
 }
 
 Visibility add_planar(const FrameInput& input, const Recipe& recipe) {
-    const auto found = receiver_planes(input.scene, recipe.of<GnPlanarParams>("planar"));
+    const auto params = recipe.of<GnPlanarParams>("planar");
+    const std::uint64_t key = Hasher().value(params.min_area).value(params.tolerance).value(params.planes).finish().low;
+    const auto found = input.derive("receiver planes", key, [&] { return receiver_planes(input.scene, params); });
+    if (found->planes.empty()) {
+        refuse(
+            "planar needs a flat receiver of at least {:.3g} % of the scene's surface, and the largest in '{}' has "
+            "{:.3g} "
+            "%: lower planar.min_area or take volumes",
+            100.0 * static_cast<double>(params.min_area), input.scene.name, 100.0 * found->largest);
+    }
     const std::vector<GnPlanarFrame> planes = lit_planes(input, *found);
     const TextureHandle image = input.graph.create(TextureDesc{.name = "visibility",
                                                                .format = VK_FORMAT_R32_SFLOAT,
@@ -211,17 +222,6 @@ Visibility add_planar(const FrameInput& input, const Recipe& recipe) {
     add_receivers(input, planes, image);
     add_casters(input, planes, image);
     return {image};
-}
-
-std::string refuse_curved(const Scene& scene, const Light&, const Recipe& recipe) {
-    const auto params = recipe.of<GnPlanarParams>("planar");
-    const auto found = receiver_planes(scene, params);
-    return found->planes.empty()
-               ? fmt::format(
-                     "planar needs a flat receiver of at least {:.3g} % of the scene's surface, and the largest in "
-                     "'{}' has {:.3g} %: lower planar.min_area or take volumes",
-                     100.0 * static_cast<double>(params.min_area), scene.name, 100.0 * found->largest)
-               : "";
 }
 
 }  // namespace
@@ -247,7 +247,6 @@ const Part& direct_planar() {
         p.params_type = "GnPlanarParams";
         p.glsl = "shadow/direct/planar/planar.glsl";
         p.add_direct = add_planar;
-        p.refuses = refuse_curved;
         return p;
     }();
     return part;

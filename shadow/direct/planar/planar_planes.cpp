@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/direct/planar/planar_planes.h"
 
-#include "shadow/geometry/caster_geometry.h"
 #include "shadow/scene/clusters.h"
 
 #include <algorithm>
@@ -86,7 +85,9 @@ bool lies_in(const Scene& scene, std::size_t triangle, const Facet& plane, doubl
     return true;
 }
 
-ReceiverPlanes find_planes(const Scene& scene, const GnPlanarParams& params) {
+}  // namespace
+
+ReceiverPlanes receiver_planes(const Scene& scene, const GnPlanarParams& params) {
     ReceiverPlanes found{.tolerance = params.tolerance * largest_cluster(scene).diagonal()};
     const double tolerance = std::max(static_cast<double>(found.tolerance), 1e-30);
     double total = 0;
@@ -118,16 +119,6 @@ ReceiverPlanes find_planes(const Scene& scene, const GnPlanarParams& params) {
     found.planes.erase(small, found.planes.end());
     found.planes.resize(std::min(found.planes.size(), static_cast<std::size_t>(params.planes)));
     return found;
-}
-
-}  // namespace
-
-std::shared_ptr<const ReceiverPlanes> receiver_planes(const Scene& scene, const GnPlanarParams& params) {
-    static GeometryCache<ReceiverPlanes> cache;
-    const std::uint64_t salt = (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(params.min_area)) << 32U |
-                                std::bit_cast<std::uint32_t>(params.tolerance)) +
-                               static_cast<std::uint64_t>(params.planes) * 0x9E3779B97F4A7C15ULL;
-    return cache.get(geometry_hash(scene, salt), [&] { return find_planes(scene, params); });
 }
 
 }  // namespace gn

@@ -5,7 +5,6 @@
 #include "shadow/direct/planar/planar.h"
 #include "shadow/scene/scene.h"
 
-#include <memory>
 #include <vector>
 
 namespace gn {
@@ -21,7 +20,7 @@ struct ReceiverPlanes {
     float tolerance = 0;                ///< metres
 };
 
-/// Finds them; kept for the latest geometries.
-std::shared_ptr<const ReceiverPlanes> receiver_planes(const Scene& scene, const GnPlanarParams& params);
+/// Finds them in O(triangles * planes).
+ReceiverPlanes receiver_planes(const Scene& scene, const GnPlanarParams& params);
 
 }  // namespace gn

@@ -50,27 +50,31 @@ TEST(PlanarLaws, receivers_are_found_by_area_whatever_their_winding_and_tessella
     b.quad({-4, 1, -4}, {4, 1, -4}, {4, 1, 4}, {-4, 1, 4}).torus({0, 5, 0}, 3, 1, 40);
     const Scene& scene = b.scene();
     const auto found = receiver_planes(scene, {});
-    ASSERT_EQ(found->planes.size(), 2U);
+    ASSERT_EQ(found.planes.size(), 2U);
     const double total = 420 + 64 + 4 * std::numbers::pi * std::numbers::pi * 3;
     // The chords of the ball's 40 segments lose up to a hundredth of its area, which is a fifth of the whole.
-    EXPECT_NEAR(found->planes[0].share, 420 / total, 0.01 * 0.2 * 420 / total);
-    EXPECT_NEAR(found->planes[1].share, 64 / total, 0.01 * 0.2 * 64 / total);
-    EXPECT_NEAR(std::abs(found->planes[0].plane_ws.y), 1.0F, 1e-6F);
-    EXPECT_NEAR(found->planes[0].plane_ws.w, 0.0F, 1e-6F);
-    EXPECT_NEAR(std::abs(found->planes[1].plane_ws.w), 1.0F, 1e-6F);
-    EXPECT_EQ(receiver_planes(scene, {.planes = 1})->planes.size(), 1U);
-    EXPECT_EQ(receiver_planes(scene, {.min_area = 0.2F})->planes.size(), 1U);
+    EXPECT_NEAR(found.planes[0].share, 420 / total, 0.01 * 0.2 * 420 / total);
+    EXPECT_NEAR(found.planes[1].share, 64 / total, 0.01 * 0.2 * 64 / total);
+    EXPECT_NEAR(std::abs(found.planes[0].plane_ws.y), 1.0F, 1e-6F);
+    EXPECT_NEAR(found.planes[0].plane_ws.w, 0.0F, 1e-6F);
+    EXPECT_NEAR(std::abs(found.planes[1].plane_ws.w), 1.0F, 1e-6F);
+    EXPECT_EQ(receiver_planes(scene, {.planes = 1}).planes.size(), 1U);
+    EXPECT_EQ(receiver_planes(scene, {.min_area = 0.2F}).planes.size(), 1U);
 }
 
 TEST(PlanarLaws, a_bent_ground_is_refused_with_its_figures) {
     SceneBuilder b;
     b.torus({0, 0, 0}, 3, 1, 60).light(sun({0, -1, 0}));
     const Recipe recipe = direct_recipe(parts::direct_planar());
-    const std::string sentence = parts::direct_planar().refuses(b.scene(), b.scene().lights[0], recipe);
+    const auto refusal = [&] {
+        SceneGpu gpu = upload_scene(device(), b.scene());
+        return render_frame(device(), gpu, {}, recipe, {.width = 8, .height = 8, .picture = false}).refused.front();
+    };
+    const std::string sentence = refusal();
     EXPECT_NE(sentence.find("planar needs a flat receiver of at least 2 %"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("'by hand'"), std::string::npos) << sentence;
     b.ground(10);
-    EXPECT_EQ(parts::direct_planar().refuses(b.scene(), b.scene().lights[0], recipe), "");
+    EXPECT_EQ(refusal(), "");
 }
 
 // ---- Rendered, against the traced hard shadow; every receiver of these scenes is flat. ----
@@ -144,9 +148,9 @@ TEST_P(PlanarRendered, equals_the_traced_hard_shadow_on_flat_receivers) {
         FrameResult flat = frame;
         for (std::size_t i = 0; i < flat.samples.position_ws.size(); ++i) {
             bool on_plane = false;
-            for (const ReceiverPlane& p : found->planes) {
+            for (const ReceiverPlane& p : found.planes) {
                 on_plane =
-                    on_plane || gn_planar_on_plane(p.plane_ws, found->tolerance, vec3(flat.samples.position_ws[i]),
+                    on_plane || gn_planar_on_plane(p.plane_ws, found.tolerance, vec3(flat.samples.position_ws[i]),
                                                    vec3(flat.samples.normal_ws[i]));
             }
             if (!on_plane && flat.samples.position_ws[i].w > 0.0F) {

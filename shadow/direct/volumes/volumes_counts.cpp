@@ -3,6 +3,7 @@
 // [EK02] The raster passes of a light: counting, and what the count says.
 // Departs from it: the count is a sum of blended floats, exact to 16 million, where eight bits of stencil wrap at 256.
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/receiver/sample_pass.h"
 
 namespace gn {
 
@@ -188,7 +189,7 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
         "volumes: receivers",
         [&](PassBuilder& pass) {
             pass.depth(lifted, Load::clear);
-            pass.sample(samples.depth);
+            pass.sample(lent(samples.depth, "depth"));
             pass.sample(samples.position);
             pass.sample(samples.normal);
             for (const BufferHandle read : {input.handles.positions, buffers.edges, buffers.sides}) {

@@ -139,50 +139,33 @@ float reach_of_volumes(const FrameInput& input) {
 }
 
 EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vector<CasterKind>& kinds,
-                              bool skip_masked, std::uint64_t key) {
-    static GeometryCache<EdgeList> cache;
+                              bool skip_masked) {
     EdgeBuffers made;
     const Casters found = find_casters(scene, kinds, skip_masked);
-    made.list = cache.get(key, [&] { return build_edges(scene.positions_ws, scene.triangles, found.casts); });
+    made.list = build_edges(scene.positions_ws, scene.triangles, found.casts);
 
     // A triangle's owner is its component, and how its caps are drawn.
     std::vector<std::uint32_t> owners(scene.triangles.size());
     for (std::size_t t = 0; t < owners.size(); ++t) {
-        const std::uint32_t component = made.list->component_of[t];
+        const std::uint32_t component = made.list.component_of[t];
         const std::uint32_t masked = found.masked[t];
         const std::uint32_t front = found.casts[t] == casts_from_its_front ? 1 : 0;
         owners[t] =
             component == EdgeList::no_component ? ~0U : component * 8 + masked * 4 + front * 2 + (masked | front);
         made.opaque_triangles += (masked | front) == 0 ? 1 : 0;
     }
-    made.edges = upload(device, "volume edges", made.list->edges);
-    made.first = upload(device, "volume edge starts", made.list->first);
-    made.around = upload(device, "volume edge triangles", made.list->around);
+    made.edges = upload(device, "volume edges", made.list.edges);
+    made.first = upload(device, "volume edge starts", made.list.first);
+    made.around = upload(device, "volume edge triangles", made.list.around);
     made.owners = upload(device, "volume triangle owners", owners);
     return made;
 }
 
-// The passes of a graph keep the buffers; the lights of one frame find them here as long as they live.
+// Lights that the same objects cast for share the edges.
 std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool skip_masked) {
-    Device& device = input.device;
-    const Scene& scene = input.scene;
-    static std::mutex mutex;
-    static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const EdgeBuffers>> alive;
-    std::uint64_t key = skip_masked ? 1 : 0;
-    const std::vector<CasterKind> kinds = caster_kinds(scene, input.light());
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-        key = key * 31 + static_cast<std::uint64_t>(kinds[i]) + (is_single_sided(scene, scene.objects[i]) ? 4 : 0);
-    }
-    key = geometry_hash(scene, key);
-    const std::lock_guard lock(mutex);
-    std::erase_if(alive, [](const auto& entry) { return entry.second.expired(); });
-    auto& entry = alive[{&device, key}];
-    std::shared_ptr<const EdgeBuffers> buffers = entry.lock();
-    if (!buffers) {
-        buffers = std::make_shared<const EdgeBuffers>(make_edge_buffers(device, scene, kinds, skip_masked, key));
-        entry = buffers;
-    }
-    return buffers;
+    const std::vector<CasterKind> kinds = caster_kinds(input);
+    return input.derive("volume edges", casters_key(input.scene, kinds) * 2 + (skip_masked ? 1 : 0),
+                        [&] { return make_edge_buffers(input.device, input.scene, kinds, skip_masked); });
 }
 
 }  // namespace
@@ -198,14 +181,14 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
 
     // Decide for each component how it casts; a buffer is never empty.
     const GnLight& light = input.light().shape;
-    buffers.forms = component_forms(scene.list->components, light, params, &input.samples.constants.cs_from_ws);
+    buffers.forms = component_forms(scene.list.components, light, params, &input.samples.constants.cs_from_ws);
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
                      .eye_ws = eye_of(input.samples.camera),
                      .light_ws = light_ws,
                      .triangles = static_cast<uint>(input.scene.triangles.size()),
-                     .edges = static_cast<uint>(scene.list->edges.size()),
+                     .edges = static_cast<uint>(scene.list.edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
                      .snap = snap_pixels(input.device),
                      .pixel = pixel_metres(input.samples),
@@ -215,7 +198,7 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
     const VkDeviceSize triangles = buffers.frame.triangles;
     buffers.multiplicity = graph.create(BufferDesc{.name = "volume multiplicities", .bytes = triangles * 4});
     buffers.caps = graph.create(BufferDesc{.name = "volume caps", .bytes = triangles * 4});
-    buffers.sides = graph.create(BufferDesc{.name = "volume sides", .bytes = scene.list->around.size() * 4});
+    buffers.sides = graph.create(BufferDesc{.name = "volume sides", .bytes = scene.list.around.size() * 4});
     buffers.draws = graph.create(BufferDesc{.name = "volume draws", .bytes = 5 * sizeof(VkDrawIndirectCommand)});
     return buffers;
 }

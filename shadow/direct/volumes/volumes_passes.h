@@ -12,7 +12,7 @@ namespace gn {
 
 /// What lives as long as the frame's graph: a scene's edges on the GPU.
 struct EdgeBuffers {
-    std::shared_ptr<const EdgeList> list;
+    EdgeList list;
     std::uint32_t opaque_triangles = 0;
     Buffer edges, first, around;  ///< as EdgeList
     Buffer

@@ -13,8 +13,6 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/scene/casting.h"
 
-#include <map>
-
 namespace gn {
 namespace {
 
@@ -184,24 +182,11 @@ SilhouetteEdges make_edges(Device& device, const Scene& scene, const std::vector
             .around = upload(device, "silhouette edge triangles", list.around)};
 }
 
-/// Lights of one frame that the same objects cast for share the edges.
-std::shared_ptr<const SilhouetteEdges> edges_of(Device& device, const Scene& scene, const Light& light) {
-    static std::mutex mutex;
-    static std::map<std::pair<const Device*, std::uint64_t>, std::weak_ptr<const SilhouetteEdges>> alive;
-    const std::vector<CasterKind> kinds = caster_kinds(scene, light);
-    std::uint64_t salt = 0;
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-        salt = salt * 31 + static_cast<std::uint64_t>(kinds[i]) + (is_single_sided(scene, scene.objects[i]) ? 4 : 0);
-    }
-    const std::lock_guard lock(mutex);
-    std::erase_if(alive, [](const auto& entry) { return entry.second.expired(); });
-    auto& entry = alive[{&device, geometry_hash(scene, salt)}];
-    std::shared_ptr<const SilhouetteEdges> edges = entry.lock();
-    if (!edges) {
-        edges = std::make_shared<const SilhouetteEdges>(make_edges(device, scene, kinds));
-        entry = edges;
-    }
-    return edges;
+/// Lights that the same objects cast for share the edges.
+std::shared_ptr<const SilhouetteEdges> edges_of(const FrameInput& input) {
+    const std::vector<CasterKind> kinds = caster_kinds(input);
+    return input.derive("silhouette edges", casters_key(input.scene, kinds),
+                        [&] { return make_edges(input.device, input.scene, kinds); });
 }
 
 struct Push {
@@ -256,7 +241,7 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     desc.format = VK_FORMAT_D32_SFLOAT;
     const TextureHandle nearest_edge = graph.create(desc);
 
-    const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input.device, input.scene, input.light());
+    const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input);
     const EdgeHandles buffers{graph.import(edges->edges), graph.import(edges->first), graph.import(edges->around),
                               views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{},
                               view_inputs(views)};

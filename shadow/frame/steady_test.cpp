@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// A steady frame creates nothing: of every shipped recipe, with a camera that moves, and while a parameter's value changes.
+#include "gpu/frames.h"
+#include "shadow/frame/frame.h"
+#include "shadow/frame/history.h"
+#include "tests/rig.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace gn {
+
+/// For messages of failed expectations.
+void PrintTo(const Counters& c, std::ostream* out) {
+    *out << c.pipelines << " pipelines, " << c.samplers << " samplers, " << c.images << " images, " << c.buffers
+         << " buffers, " << c.views << " views, " << c.allocations << " allocations, " << c.pools << " pools";
+}
+
+namespace {
+
+constexpr uint width = 48, height = 32;
+constexpr int warm = 3, steady = 3;
+
+/// Threads of this process.
+int threads() {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    int count = 0;
+    while (status >> word) {
+        if (word == "Threads:") {
+            status >> count;
+        }
+    }
+    return count;
+}
+
+/// A renderer that records its frames: own view samples, two slots, a camera that goes sideways.
+struct Renderer {
+    const Scene& scene;
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    Frames frames{test::device(), 2};
+    History history{test::device()};
+    int frame = 0;
+
+    void draw(const PreparedRecipe& recipe) {
+        frames.begin(static_cast<std::uint32_t>(frame % 2));
+        test::device().run([&](VkCommandBuffer commands) {
+            FrameGraph graph(test::device());
+            declare(graph, recipe);
+            graph.record(frames, commands);
+        });
+        history.advance();
+        ++frame;
+    }
+
+    void declare(FrameGraph& graph, const PreparedRecipe& recipe) {
+        Camera camera = scene.camera("");
+        camera.position_ws.x += 0.02F * static_cast<float>(frame);
+        const FrameCasters casters{scene, import_scene(graph, gpu)};
+        const ViewSamples receivers = add_view_samples(graph, gpu, casters.handles, camera, width, height);
+        for (const LightShadow& shadow : add_frame(graph, receivers, casters, lights_of(scene), recipe, &history)) {
+            if (shadow.refused.empty()) {
+                graph.keep(shadow.visibility.image);
+            }
+        }
+    }
+};
+
+std::string small_maps(const std::string& name) {
+    const Recipe recipe = load_recipe(name);
+    const bool has_map =
+        recipe.map != nullptr || (recipe.direct != nullptr && holds(recipe.direct->reads, "resolution"));
+    return has_map ? name + ",resolution=128" : name;
+}
+
+class Steady : public testing::TestWithParam<std::string> {};
+
+TEST_P(Steady, FramesCreateNothing) {
+    const test::ValidationGuard guard;
+    const Scene scene = load_scene("courtyard");
+    Renderer renderer{scene};
+    const PreparedRecipe recipe(test::device(), load_recipe(small_maps(GetParam())));
+    for (int i = 0; i < warm; ++i) {
+        renderer.draw(recipe);
+    }
+    const Counters before = test::device().counters();
+    const int threads_before = threads();
+    for (int i = 0; i < steady; ++i) {
+        renderer.draw(recipe);
+        ASSERT_EQ(test::device().counters(), before) << GetParam() << ", frame " << renderer.frame;
+    }
+    EXPECT_EQ(threads(), threads_before);
+
+    // A value that only shaders are given makes nothing either.
+    if (recipe.recipe().map != nullptr) {
+        const PreparedRecipe other(test::device(), load_recipe(small_maps(GetParam()) + ",bias.normal=1.75"));
+        renderer.draw(other);
+        EXPECT_EQ(test::device().counters(), before) << GetParam() << " with another bias";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Recipes, Steady, testing::ValuesIn(recipe_names()), [](const auto& test) {
+    std::string name = test.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
+
+}  // namespace
+}  // namespace gn
