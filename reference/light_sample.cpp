@@ -53,7 +53,7 @@ LightSampler::LightSampler(const GnLight& light, vec3 p_ws) : light_(light) {
             single_ = light.angular_radius <= 0.0F;
             distance_ = infinity;
             axis_ = -vec3(light.direction_ws);
-            height_ = 2.0F * square(std::sin(0.5F * std::min(light.angular_radius, pi)));
+            height_ = cone_height(std::min(light.angular_radius, pi));
             break;
         }
     }
@@ -61,11 +61,9 @@ LightSampler::LightSampler(const GnLight& light, vec3 p_ws) : light_(light) {
 }
 
 LightPoint LightSampler::in_cone(vec2 u) const {
-    // The height below the cone's pole is uniform (Archimedes), as is the squared radius on the disc.
     const vec2 d = disc_from_square(u);
     const float below = glm::dot(d, d) * height_;
-    const float sine_per_radius = std::sqrt(height_ * (2.0F - below));
-    const vec3 direction = (1.0F - below) * axis_ + sine_per_radius * (d.x * x_ + d.y * y_);
+    const vec3 direction = direction_in_cone(d, height_, x_, y_, axis_);
     if (light_.kind != GN_LIGHT_POINT) {
         return {direction, infinity};
     }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Based on: Peter Shirley, Kenneth Chiu. A Low Distortion Map Between Disk and Square. JGT 1997. [SC97]
-//
 // Points of a light as one receiver sees it, from points of the unit square, area-preserving so that the sampler's
 // stratification survives:
 //
@@ -11,27 +9,10 @@
 // every direction meets it, so all directions are drawn.
 #pragma once
 
-#include "base/math.h"
+#include "base/disc.h"
 #include "reference/truth.h"
 
 namespace gn {
-
-/// Concentric map of the square onto the unit disc. [SC97, section 3]
-inline vec2 disc_from_square(vec2 u) {
-    const float a = 2.0F * u.x - 1.0F;
-    const float b = 2.0F * u.y - 1.0F;
-    const bool wide = std::abs(a) > std::abs(b);
-    const float radius = wide ? a : b;
-    const float ratio = radius != 0.0F ? (wide ? b : a) / radius : 0.0F;
-
-    // Sine and cosine of pi/4 * ratio, by their series: the first term left out is under 2e-9.
-    const float x = 0.25F * pi * ratio;
-    const float x2 = x * x;
-    const float sine = x * (1.0F + x2 * (-1.0F / 6 + x2 * (1.0F / 120 + x2 * (-1.0F / 5040 + x2 * (1.0F / 362880)))));
-    const float cosine =
-        1.0F + x2 * (-0.5F + x2 * (1.0F / 24 + x2 * (-1.0F / 720 + x2 * (1.0F / 40320 - x2 * (1.0F / 3628800)))));
-    return radius * (wide ? vec2(cosine, sine) : vec2(sine, cosine));
-}
 
 /// One light as seen from one receiver: constants first, then cheap points.
 class LightSampler {

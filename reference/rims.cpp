@@ -2,8 +2,8 @@
 #include "reference/rims.h"
 
 #include "base/error.h"
+#include "base/sobol.h"
 #include "reference/rays.h"
-#include "reference/sobol.h"
 
 #include <array>
 #include <atomic>

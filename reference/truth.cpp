@@ -12,11 +12,11 @@
 #include "reference/truth.h"
 
 #include "base/error.h"
+#include "base/sobol.h"
 #include "reference/light_sample.h"
 #include "reference/occluders.h"
 #include "reference/rays.h"
 #include "reference/rims.h"
-#include "reference/sobol.h"
 
 #include <algorithm>
 #include <atomic>
@@ -38,6 +38,11 @@ struct Plan {
     std::vector<std::uint32_t> second;  ///< coordinate 1 of the sequence, bit-reversed
 
     explicit Plan(const TruthOptions& options) : seed(options.seed) {
+        if (options.exactly != nullptr && (options.integral || options.width == 0 || options.exactly->points.empty())) {
+            fail(
+                "the reference traces exactly the given points: at least one, with the picture's width, without "
+                "integral");
+        }
         if (options.samples < 1 || options.samples > most_samples) {
             fail("{} samples are asked of the reference; valid is 1 to {}", options.samples, most_samples);
         }
@@ -69,6 +74,28 @@ Estimate trace_single(const Occluders& occluders, const Blockers& blockers, cons
     occluders.trace(seat, blockers, &valid, ray);
     const double visible = ray.rays.tfar[0] < 0.0F ? 0.0 : 1.0;
     return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
+}
+
+/// The weighted mean over points that are given.
+Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, const Seat& seat, const GnLight& light,
+                       const LightSamples& samples, ivec2 pixel) {
+    const int count = static_cast<int>(samples.points.size());
+    double visible = 0;
+    double weights = 0;
+    for (int i = 0; i < count; ++i) {
+        const GnLight& one = samples.points[static_cast<std::size_t>(i)];
+        const float weight =
+            gn_point_taken(i, count, pixel, samples.side) ? gn_point_weight(light, one, seat.origin_ws) : 0.0F;
+        if (weight > 0) {
+            Packet<1> ray;
+            aim(ray, 0, seat.origin_ws, LightSampler(one, seat.origin_ws).centre());
+            const int valid = -1;
+            occluders.trace(seat, blockers, &valid, ray);
+            visible += ray.rays.tfar[0] < 0.0F ? 0.0 : static_cast<double>(weight);
+            weights += static_cast<double>(weight);
+        }
+    }
+    return {weights > 0 ? visible / weights : 1.0, 0.0, 0.0};
 }
 
 /// The mean of the batches' means and its standard error.
@@ -169,6 +196,10 @@ struct Job {
 
     Estimate estimate_at(std::size_t i, const Blockers& by, const Seat& seat, const LightSampler& sampler,
                          vec3 n_ws) const {
+        if (options.exactly != nullptr) {
+            const ivec2 pixel(static_cast<int>(i % options.width), static_cast<int>(i / options.width));
+            return trace_exactly(occluders, by, seat, light, *options.exactly, pixel);
+        }
         if (sampler.single()) {
             return trace_single(occluders, by, seat, sampler, n_ws);
         }

@@ -2,6 +2,8 @@
 // The truth: V traced by Embree on the CPU for exactly the view samples that the GPU rendered.
 #pragma once
 
+#include "base/sobol.h"
+#include "shadow/scene/light_samples.h"
 #include "shadow/scene/scene.h"
 
 #include <functional>
@@ -16,6 +18,10 @@ struct TruthOptions {
     int threads = 0;           ///< 0: all; changes nothing in the result
     bool (*stop)() = nullptr;  ///< asked by every thread before every view sample; true leaves the rest untraced
     bool integral = false;     ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
+    /// Instead of random points of the light exactly these, for tests: V is their weighted mean, without an error of its
+    /// own. Not together with `integral`.
+    const LightSamples* exactly = nullptr;
+    uint width = 0;  ///< with `exactly`: of the picture that the view samples fill row by row
 };
 
 struct TruthResult {
@@ -74,8 +80,6 @@ class Truth {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Owen-scrambled Sobol point i of the 2D sequence with this seed, in [0,1)^2.
-vec2 sobol_owen(uint i, uint seed);
 /// Point (u in [0,1)^2) on the light as seen from p: direction to it (unit) and distance (infinite if directional).
 struct LightPoint {
     vec3 direction_ws;

@@ -75,6 +75,34 @@ Difference against(const Slab& slab, const Samples& samples, const TruthResult& 
     return d;
 }
 
+TEST(Truth, TracesExactlyThePointsThatAreGiven) {
+    // Each receiver sees both of two points, one, or none, and nothing is estimated. The panel is wide, so that its shadows
+    // overlap in part.
+    const GnLight light = panel(4, {0.8F, 0.1F});
+    const Slab slab;
+    const Truth truth(slab.quads.scene);
+    const Samples samples = ground_samples(24, 1.4F);
+    const LightSamples both = light_samples(light, 2);
+    const TruthResult result =
+        truth.trace(samples.position_ws, samples.normal_ws, light, {.exactly = &both, .width = 24});
+    std::array<int, 3> seen{};
+    for (std::size_t i = 0; i < result.visibility.size(); ++i) {
+        int points = 0;
+        for (const GnLight& point : both.points) {
+            // A little above the ground, which blocks nothing then.
+            const dvec3 p_ws = dvec3(samples.position_ws[i]) + dvec3(0, 1e-5, 0);
+            points += truth.blocked(p_ws, dvec3(point.position_ws)) ? 0 : 1;
+        }
+        EXPECT_EQ(result.visibility[i], 0.5F * static_cast<float>(points)) << i;
+        EXPECT_EQ(result.standard_error[i], 0.0F);
+        ++seen.at(static_cast<std::size_t>(points));
+    }
+    EXPECT_TRUE(seen[0] > 0 && seen[1] > 0 && seen[2] > 0) << seen[0] << " " << seen[1] << " " << seen[2];
+    EXPECT_THROW(static_cast<void>(truth.trace(samples.position_ws, samples.normal_ws, light,
+                                               {.integral = true, .exactly = &both, .width = 24})),
+                 Error);
+}
+
 TEST(Truth, SlabConvergesToItsClosedForm) {
     const Slab slab;
     const Truth truth(slab.quads.scene);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reference/sobol.h"
-
-#include "reference/truth.h"
+#include "base/sobol.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,17 @@
 // a digit to the finer ones only, which is what nested scrambling asks for (section 3).
 #pragma once
 
+#include "base/math.h"
+
 #include <cstdint>
 #include <vector>
 
-namespace gn::sobol {
+namespace gn {
+
+/// Owen-scrambled Sobol point i of the 2D sequence with this seed, in [0,1)^2.
+vec2 sobol_owen(uint i, uint seed);
+
+namespace sobol {
 
 /// Bits in opposite order.
 inline std::uint32_t reverse_bits(std::uint32_t x) {
@@ -57,4 +64,5 @@ struct Seeds {
     explicit Seeds(std::uint32_t seed) : first(mix(seed, 0x5851F42DU)), second(mix(seed, 0x14057B7EU)) {}
 };
 
-}  // namespace gn::sobol
+}  // namespace sobol
+}  // namespace gn
