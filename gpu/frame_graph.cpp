@@ -6,6 +6,7 @@
 #include "gpu/graph_builder.h"
 #include "gpu/graph_executor.h"
 #include "gpu/graph_plan.h"
+#include "gpu/graph_rounds.h"
 #include "gpu/pipeline_warmer.h"
 #include "gpu/transfer.h"
 
@@ -21,6 +22,8 @@ struct FrameGraph::Impl {
     std::vector<Answer> answers;
     std::vector<std::shared_ptr<const void>> objects;  ///< that passes use
     std::string group;
+    Rounds texture_rounds, buffer_rounds;
+    std::vector<std::shared_ptr<const void>> owned;
 
     GraphPlan plan;
     bool stale = true;  ///< declarations changed since the plan was made
@@ -94,18 +97,48 @@ TextureHandle FrameGraph::create(const TextureDesc& desc) {
         fail("texture '{}' of {} x {}, {} layers, {} mips, {} samples is empty; every count must be at least 1",
              desc.name, desc.width, desc.height, desc.layers, desc.mips, desc.samples);
     }
+    if (const auto again = impl_->texture_rounds.take(impl_->declaration.textures, desc)) {
+        return {*again};
+    }
     impl_->declaration.textures.push_back({.desc = desc, .group = impl_->group});
     impl_->imports.textures.push_back(nullptr);
     impl_->stale = true;
-    return {static_cast<std::uint32_t>(impl_->declaration.textures.size() - 1)};
+    const auto index = static_cast<std::uint32_t>(impl_->declaration.textures.size() - 1);
+    impl_->texture_rounds.made(index);
+    return {index};
 }
 
-BufferHandle FrameGraph::create(const BufferDesc& desc) {
+BufferHandle FrameGraph::create(const BufferDesc& wanted) {
+    BufferDesc desc = wanted;
+    desc.bytes = std::max<VkDeviceSize>(desc.bytes, 16);
+    if (const auto again = impl_->buffer_rounds.take(impl_->declaration.buffers, desc)) {
+        return {*again};
+    }
     impl_->declaration.buffers.push_back({.desc = desc, .group = impl_->group});
-    impl_->declaration.buffers.back().desc.bytes = std::max<VkDeviceSize>(desc.bytes, 16);
     impl_->imports.buffers.push_back(nullptr);
     impl_->stale = true;
-    return {static_cast<std::uint32_t>(impl_->declaration.buffers.size() - 1)};
+    const auto index = static_cast<std::uint32_t>(impl_->declaration.buffers.size() - 1);
+    impl_->buffer_rounds.made(index);
+    return {index};
+}
+
+void FrameGraph::begin_rounds() {
+    impl_->texture_rounds.begin();
+    impl_->buffer_rounds.begin();
+}
+
+void FrameGraph::next_round() {
+    impl_->texture_rounds.next();
+    impl_->buffer_rounds.next();
+}
+
+void FrameGraph::end_rounds() {
+    impl_->texture_rounds.end();
+    impl_->buffer_rounds.end();
+}
+
+void FrameGraph::own(std::shared_ptr<const void> held) {
+    impl_->owned.push_back(std::move(held));
 }
 
 TextureHandle FrameGraph::import(Texture2D& texture) {

@@ -13,6 +13,7 @@
 #include "gpu/pipeline.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -182,6 +183,14 @@ class FrameGraph {
     BufferHandle import(const Buffer& buffer);
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const;
     [[nodiscard]] const BufferDesc& desc(BufferHandle buffer) const;
+
+    /// Between begin and end what a round creates takes the place of what the round before created by the same name and
+    /// description: one set of resources serves all of them. Contents are undefined before the round's first write.
+    void begin_rounds();
+    void next_round();
+    void end_rounds();
+    /// Keeps what passes point to for as long as the graph lives.
+    void own(std::shared_ptr<const void> held);
 
     /// Names the group that following passes and resources belong to ("scene", "shadow", "shading").
     void group(std::string name);

@@ -267,6 +267,45 @@ TEST_F(Plan, WhatIsClearedLaterNeedsNoEarlierWriter) {
     EXPECT_EQ(plan.passes[1].declared, 2U);
 }
 
+TEST_F(Plan, RoundsShareOneSetOfResources) {
+    const auto sums = buffer("sums");
+    graph.keep(sums);
+    graph.begin_rounds();
+    std::vector<std::uint32_t> first;
+    for (int round = 0; round < 3; ++round) {
+        graph.next_round();
+        const auto map = texture("map"), blurred = texture("map"), wide = texture("wide", VK_FORMAT_R32_SFLOAT, 2);
+        const auto list = buffer("list");
+        EXPECT_NE(map.index, blurred.index) << "a round has each resource once";
+        pass("draw", [&](PassBuilder& p) {
+            p.storage_write(map);
+            p.storage_write(list);
+        });
+        pass("blur", [&](PassBuilder& p) {
+            p.sample(map);
+            p.storage_write(blurred);
+            p.storage_write(wide);
+        });
+        pass("add", [&](PassBuilder& p) {
+            p.sample(blurred);
+            p.sample(wide);
+            p.storage_read(list);
+            p.storage_write(sums);
+        });
+        const std::vector<std::uint32_t> made{map.index, blurred.index, wide.index, list.index};
+        first = round == 0 ? made : first;
+        EXPECT_EQ(made, first) << round;
+    }
+    graph.end_rounds();
+    EXPECT_NE(texture("map").index, first[0]) << "after the rounds a resource is a new one";
+
+    // What a round draws waits for what the round before still read.
+    const GraphPlan& plan = graph.plan();
+    ASSERT_EQ(plan.passes.size(), 9U);
+    const auto& waits = plan.passes[3].textures;
+    EXPECT_EQ(std::count_if(waits.begin(), waits.end(), [&](const auto& w) { return w.texture == first[0]; }), 1);
+}
+
 TEST_F(Plan, AliasedMemoryWaitsForItsFormerUser) {
     const auto a = texture("a"), b = texture("b");
     const auto out = buffer("out");

@@ -17,6 +17,7 @@ struct BufferDesc {
     VkDeviceSize bytes = 0;        ///< 0 is rounded up to 16: empty scenes are legal
     VkBufferUsageFlags usage = 0;  ///< transfer source and destination are always added
     bool host_visible = false;     ///< mapped and coherent
+    bool operator==(const BufferDesc&) const = default;
 };
 
 struct TextureDesc {
@@ -25,6 +26,7 @@ struct TextureDesc {
     std::uint32_t width = 1, height = 1, layers = 1, mips = 1, samples = 1;
     VkImageUsageFlags usage = 0;  ///< the graph derives it for transient textures
     bool cube = false;            ///< a cube-compatible view is possible (layers a multiple of six)
+    bool operator==(const TextureDesc&) const = default;
 };
 
 /// Bytes of all texels, mips, layers and samples; the report's arithmetic, without alignment.
