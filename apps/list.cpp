@@ -41,6 +41,19 @@ ordered_json parts() {
     return list;
 }
 
+/// The stages that a recipe uses, in order, each with its parts: {"stage": "visibility", "parts": ["bilateral"]}.
+ordered_json stages_of(const Recipe& recipe) {
+    ordered_json stages = ordered_json::array();
+    for (const Part* part : recipe.parts()) {
+        const std::string_view stage = stage_names[static_cast<std::size_t>(part->stage)];
+        if (stages.empty() || stages.back().at("stage") != stage) {
+            stages.push_back({{"stage", stage}, {"parts", ordered_json::array()}});
+        }
+        stages.back().at("parts").push_back(part->id);
+    }
+    return stages;
+}
+
 ordered_json recipes() {
     ordered_json list = ordered_json::array();
     for (const std::string& name : recipe_names()) {
@@ -49,7 +62,8 @@ ordered_json recipes() {
             continue;
         }
         const Recipe& recipe = *found;
-        list.push_back({{"name", name}, {"title", recipe.title}, {"citation", recipe.citation}});
+        list.push_back(
+            {{"name", name}, {"title", recipe.title}, {"citation", recipe.citation}, {"stages", stages_of(recipe)}});
     }
     return list;
 }

@@ -50,7 +50,7 @@ std::string users_of(const Part& part) {
         if (!recipe) {
             continue;
         }
-        for (const Part* used : {recipe->placement, recipe->map, recipe->lookup, recipe->direct, recipe->visibility}) {
+        for (const Part* used : recipe->parts()) {
             if (used == &part) {
                 list += (list.empty() ? "" : ", ") + name;
             }
@@ -116,24 +116,39 @@ std::string part_name(const Part* part, std::string_view absent) {
     return std::string(part ? part->id : absent);
 }
 
+/// As a recipe's key has them: "one+another", or "none".
+std::string visibility_names(const Recipe& recipe) {
+    std::string names;
+    for (const Part* part : recipe.visibility) {
+        names += fmt::format("{}{}", names.empty() ? "" : "+", part->id);
+    }
+    return names.empty() ? "none" : names;
+}
+
 void show_recipe(const std::string& name) {
     const Recipe recipe = load_recipe(name);
-    const bool mapped = recipe.map != nullptr;
+    const bool mapped = recipe.map != nullptr, split = recipe.light != nullptr;
     fmt::print("recipe '{}': {}\n\n{}\n\n", recipe.name, recipe.title, recipe.paragraph);
     // Its parts in flow order.
     fmt::print("  source      [{}]\n", recipe.citation);
+    fmt::print("{}", split ? fmt::format("  light       {}\n", recipe.light->id) : "");
     if (mapped) {
         fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", part_name(recipe.placement, "auto"),
                    part_name(recipe.map, "none"), part_name(recipe.lookup, "none"));
         fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, min_resolution, max_resolution);
         fmt::print("  casters     {}, of {}\n", name_of(recipe.casters), fmt::join(caster_names, ", "));
-    } else {
+    }
+    if (!mapped || recipe.direct != nullptr) {
         fmt::print("  direct      {}\n", part_name(recipe.direct, "none"));
     }
-    fmt::print("  visibility  {}\n", part_name(recipe.visibility, "none"));
+    if (recipe.combine) {
+        fmt::print("  combine     {}, of {}\n", combine_names.at(static_cast<std::size_t>(*recipe.combine)),
+                   fmt::join(combine_names, ", "));
+    }
+    fmt::print("  visibility  {}\n", visibility_names(recipe));
     // The parameters that take part, as this recipe sets them.
-    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        if (part != nullptr && !part->params.rows.empty()) {
+    for (const Part* part : recipe.parts()) {
+        if (!part->params.rows.empty()) {
             fmt::print("\n{}", parameter_table(recipe.block(*part), part->id, "value"));
         }
     }

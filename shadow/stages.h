@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The types of the flow, in order. With shadow/frame/frame.cpp the file to read first.
 //
-//     scene -> view samples -> placement -> map -> lookup -> visibility image -> shading -> picture
-//                                  \______ direct (no map) ______/
+//     scene -> view samples -> light -> placement -> map -> lookup -> visibility image -> shading -> picture
+//                                           \______ direct (no map) ______/
 #pragma once
 
 #include "base/kept.h"
@@ -22,8 +22,9 @@
 
 namespace gn {
 
-enum class Stage { placement, map, lookup, direct, visibility };
-inline constexpr std::array<std::string_view, 5> stage_names{"placement", "map", "lookup", "direct", "visibility"};
+enum class Stage { light, placement, map, lookup, direct, visibility };
+inline constexpr std::array<std::string_view, 6> stage_names{"light",  "placement", "map",
+                                                             "lookup", "direct",    "visibility"};
 
 /// The scene on the GPU. Made once by upload_scene; imported into each frame's graph.
 struct SceneGpu {
@@ -99,12 +100,13 @@ struct FrameInput {
     const Scene& scene;
     const SceneHandles& handles;
     const ViewSamples& samples;
-    const Light* source = nullptr;  ///< whose shadow is asked for; null in passes for all lights
+    const Light* source = nullptr;  ///< what casts: a light, or a sample of one; null in passes for all lights
     std::uint64_t light_id = 0;     ///< keys what the history keeps for the light, in whatever order lights come
     History* history = nullptr;     ///< what earlier frames of the sequence kept; null for a single frame
     /// Where answers that come after the frame (FrameGraph::answer) say what it lacked; lives as long as they can come.
     std::set<std::string>* late_remarks = nullptr;
     const PreparedRecipe* prepared = nullptr;  ///< what the recipe's frames share; null where one is drawn alone
+    const Light* parent = nullptr;  ///< the light that `source` is a sample of; null where it is a whole one
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;
@@ -121,6 +123,8 @@ struct FrameInput {
         graph.hold(value);
         return value;
     }
+    /// The light whose V is asked for: light(), or what it is a sample of. It says which view samples count.
+    [[nodiscard]] const Light& whole_light() const { return parent != nullptr ? *parent : light(); }
 };
 
 class Part;

@@ -10,7 +10,7 @@ import re
 import subprocess
 import tomllib
 
-STAGES = ("placement", "map", "lookup", "direct", "visibility")
+STAGES = ("light", "placement", "map", "lookup", "direct", "visibility")
 SOURCES = {".cpp", ".h", ".glsl", ".comp", ".frag", ".vert", ".geom"}
 SHADERS = {".glsl", ".comp", ".frag", ".vert", ".geom"}
 SCRIPTS = {".py", ".cmake", ".toml", ".html", ".css", ".js", ".bib", ".sh"}
@@ -343,11 +343,13 @@ def recipes(tree):
         complaints += [f"{name}: cites {key}, which docs/references.bib lacks"
                        for key in re.findall(r"[^\s,;]+", str(recipe.get("citation", ""))) if key not in known]
         for stage in STAGES:
-            part = recipe.get(stage)
-            if isinstance(part, str) and part not in ("", "auto") and (stage, part.replace("-", "_")) not in there:
+            named = recipe.get(stage, [])
+            for part in named if isinstance(named, list) else [named]:
+                if part in ("", "auto") or (stage, part.replace("-", "_")) in there:
+                    continue
                 complaints.append(f"{name}: {stage} = '{part}', but shadow/{stage}/{part.replace('-', '_')}/ is not there")
-        if "direct" in recipe and ("map" in recipe or "lookup" in recipe):
-            complaints.append(f"{name}: has direct and a map or lookup; a recipe takes one way or the other")
+        if "direct" in recipe and ("map" in recipe or "lookup" in recipe) and "combine" not in recipe:
+            complaints.append(f"{name}: has direct and a map or lookup, and no combine says how their V become one")
     return complaints
 
 

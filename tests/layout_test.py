@@ -89,7 +89,7 @@ BREACHES = [
     (rules.recipes, {"recipes/soft.toml": 'title = "a"\ncitation = "Wil78"\n'}, "paragraph"),
     (rules.recipes, {"recipes/soft.toml": 'title = "a"\nparagraph = "b"\ncitation = "Xyz99"\n'}, "Xyz99"),
     (rules.recipes, {"recipes/soft.toml": "title =\n"}, "no TOML"),
-    (rules.recipes, {"recipes/soft.toml": GOOD["recipes/soft.toml"] + 'direct = "soft"\n'}, "one way or the other"),
+    (rules.recipes, {"recipes/soft.toml": GOOD["recipes/soft.toml"] + 'direct = "soft"\n'}, "no combine says"),
     (rules.manual_pages, {f"{PART}.md": "# Soft\n"}, "front matter"),
     (rules.manual_pages, {f"{PART}.md": GOOD[f"{PART}.md"].replace("stage: lookup", "stage: map")}, "stage map"),
     (rules.manual_pages, {f"{PART}.md": GOOD[f"{PART}.md"].replace("Wil78", "Xyz99")}, "Xyz99"),

@@ -26,8 +26,8 @@ std::vector<const Part*> parts_of(const Recipe& recipe, const Scene& scene) {
     if (recipe.map != nullptr) {
         parts = {&recipe.placement_for(scene.lights.front().shape), recipe.map, recipe.lookup};
     }
-    for (const Part* part : {recipe.direct, recipe.visibility}) {
-        if (part != nullptr) {
+    for (const Part* part : recipe.parts()) {
+        if (part->stage == Stage::light || part->stage == Stage::direct || part->stage == Stage::visibility) {
             parts.push_back(part);
         }
     }
@@ -116,12 +116,12 @@ TEST(ParameterSweepCoverage, EveryFilterIsInAShippedRecipe) {
     std::set<std::string_view> used;
     for (const std::string& name : recipe_names()) {
         const Recipe recipe = load_recipe(name);
-        for (const Part* part : {recipe.map, recipe.lookup, recipe.visibility}) {
-            used.insert(part != nullptr ? part->id : "");
+        for (const Part* part : recipe.parts()) {
+            used.insert(part->id);
         }
     }
     for (const Part* part : all_parts()) {
-        if (part->stage == Stage::map || part->stage == Stage::lookup || part->stage == Stage::visibility) {
+        if (part->stage != Stage::placement && part->stage != Stage::direct) {
             EXPECT_TRUE(used.contains(part->id)) << part->id;
         }
     }

@@ -79,9 +79,10 @@ void add_camera(Hasher& hasher, const Camera& camera) {
 void add_recipe(Hasher& hasher, const Recipe& recipe) {
     hasher.text(recipe.name).text(recipe.overrides).text(name_of(recipe.casters)).value(recipe.resolution);
     hasher.bytes(&recipe.bias, sizeof recipe.bias).text(recipe.title).text(recipe.paragraph);
-    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        hasher.text(part != nullptr ? part->id : "");
+    for (const Part* part : recipe.parts()) {
+        hasher.text(stage_names[static_cast<std::size_t>(part->stage)]).text(part->id);
     }
+    hasher.value(recipe.combine ? static_cast<int>(*recipe.combine) : -1);
     for (const auto& [id, block] : recipe.params) {
         hasher.text(id).bytes(block.bytes().data(), block.bytes().size());
     }

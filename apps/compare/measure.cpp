@@ -18,8 +18,8 @@ namespace {
 
 /// Parameters of all parts that take part, as `gnomon show` names them.
 void add_parameters(RunResult& run, const Recipe& recipe) {
-    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        for (const ParamRow& row : part != nullptr ? part->params.rows : std::vector<ParamRow>{}) {
+    for (const Part* part : recipe.parts()) {
+        for (const ParamRow& row : part->params.rows) {
             run.parameters.emplace_back(fmt::format("{}.{}", part->id, row.name), recipe.block(*part).get(row.name));
         }
     }

@@ -3,32 +3,50 @@
 #include "shadow/frame/frame.h"
 
 #include "shadow/frame/map_memory.h"
+#include "shadow/light/weighted.h"
 #include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
 #include "shadow/recipe/check_recipe.h"
 #include "shadow/view/read_back.h"
+#include "shadow/visibility/combine.h"
 
 namespace gn {
+
+namespace {
+
+/// placement -> map -> lookup.
+Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
+    const LightViews views = place_views(input, recipe);
+    ShadowMap map = recipe.map->add_map(input, recipe, views);
+    map.part = recipe.map;
+    add_derived(input, recipe, views, map);
+    check_map_memory(input, recipe, map.texture());
+    return recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
+                                                : add_resolve(input, recipe, views, map);
+}
+
+/// Map, direct part, or both as one.
+Visibility add_one_light(const FrameInput& input, const Recipe& recipe) {
+    if (recipe.lookup == nullptr && recipe.direct == nullptr) {
+        return add_no_shadow(input);
+    }
+    if (recipe.direct == nullptr) {
+        return add_mapped(input, recipe);
+    }
+    const Visibility direct = recipe.direct->add_direct(input, recipe);
+    return recipe.lookup == nullptr ? direct
+                                    : add_combined(input, add_mapped(input, recipe), direct, recipe.combine.value());
+}
+
+}  // namespace
 
 Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
     check_recipe(recipe, input.scene, input.light(), input.device);
 
-    Visibility visibility;
-    if (recipe.direct != nullptr) {
-        visibility = recipe.direct->add_direct(input, recipe);
-    } else if (recipe.lookup == nullptr) {
-        visibility = add_no_shadow(input);
-    } else {
-        const LightViews views = place_views(input, recipe);
-        ShadowMap map = recipe.map->add_map(input, recipe, views);
-        map.part = recipe.map;
-        add_derived(input, recipe, views, map);
-        check_map_memory(input, recipe, map.texture());
-        visibility = recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
-                                                          : add_resolve(input, recipe, views, map);
-    }
-    if (recipe.visibility != nullptr) {
-        visibility = recipe.visibility->add_visibility(input, recipe, visibility);
+    const auto serve = [&](const FrameInput& light) { return add_one_light(light, recipe); };
+    Visibility visibility = recipe.light != nullptr ? add_weighted(input, recipe, serve) : serve(input);
+    for (const Part* part : recipe.visibility) {
+        visibility = part->add_visibility(input, recipe, visibility);
     }
     add_unshadowed(input, visibility);
     return visibility;

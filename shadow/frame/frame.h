@@ -98,7 +98,7 @@ GnViewConstants view_constants(const Camera& camera, uint width, uint height);
 SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene);
 ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const SceneHandles& handles,
                              const Camera& camera, uint width, uint height);
-/// placement -> map -> lookup, or direct, then visibility, for one light. Throws Refusal.
+/// placement -> map -> lookup, direct, or both, for the light or each that serves it, then visibility. Throws Refusal.
 Visibility add_shadow(const FrameInput& input, const Recipe& recipe);
 /// An R32F image of the view's size.
 TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples);

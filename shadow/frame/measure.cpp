@@ -83,8 +83,8 @@ std::vector<std::string> remarks_of(const Recipe& recipe, const Scene& scene) {
     if (std::string remark = placement_remark(recipe, scene); !remark.empty()) {
         remarks.push_back(std::move(remark));
     }
-    for (const Part* part : {recipe.placement, recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        const std::string remark = part != nullptr && part->remark != nullptr ? part->remark(scene, recipe) : "";
+    for (const Part* part : recipe.parts()) {
+        const std::string remark = part->remark != nullptr ? part->remark(scene, recipe) : "";
         if (!remark.empty()) {
             remarks.push_back(remark);
         }

@@ -58,7 +58,7 @@ ConvexBody potential_receivers(const FrameInput& input, double near, double far)
     ConvexBody body = seen_of(box_ws, frustum_of(input, near, far));
 
     // ∩ L: within the light's range, before a rectangle's plane, inside a spot's pyramid.
-    const GnLight& light = input.light().shape;
+    const GnLight& light = input.whole_light().shape;
     const dvec3 axis(vec3(light.direction_ws));
     const dvec3 eye(vec3(light.position_ws));
     for (int side = 0; side < 6 && light.kind != GN_LIGHT_DIRECTIONAL && light.range > 0; ++side) {
@@ -93,7 +93,10 @@ double farthest(const Box& box_ws, vec3 p_ws) {
 double reach_of(const FrameInput& input) {
     const GnLight& light = input.light().shape;
     const double reach = farthest(seen_bounds(input), vec3(light.position_ws));
-    const double range = light.range > 0 ? static_cast<double>(light.range) : reach;
+    // The range is the whole light's, about its own centre.
+    const GnLight& whole = input.whole_light().shape;
+    const double aside = glm::length(dvec3(vec3(light.position_ws)) - dvec3(vec3(whole.position_ws)));
+    const double range = whole.range > 0 ? static_cast<double>(whole.range) + aside : reach;
     return 1.001 * std::min(reach, range);
 }
 

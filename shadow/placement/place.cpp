@@ -18,7 +18,7 @@ ViewKind kind_of(std::span<const GnLightView> views) {
 }
 
 LightViews place_views(const FrameInput& input, const Recipe& recipe) {
-    const Part& placement = recipe.placement_for(input.light().shape);
+    const Part& placement = recipe.placement_for(input.whole_light().shape);
     LightViews views = placement.place(input, recipe);
     views.part = &placement;
     GN_CHECK(views.buffer.valid() || views.kind == kind_of(views.views));

@@ -13,7 +13,7 @@ constexpr const char* read_text = R"(
 bool read_sample(ivec2 pixel, out GnReceiver receiver) {
     vec4 position = gbuffer_position_texel(pixel);
     vec4 normal = gbuffer_normal_texel(pixel);
-    if (position.w < 0.5 || !gn_counted(u.light, position.xyz, normal.xyz)) {
+    if (position.w < 0.5 || !gn_counted(u.whole, position.xyz, normal.xyz)) {
         return false;
     }
     receiver = gn_receiver(u.view, pixel, position, normal);
@@ -80,6 +80,7 @@ ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const 
     add_views(inputs, views);
     inputs.constant("GnViewConstants", "view", input.samples.constants);
     inputs.constant("GnLight", "light", input.light().shape);
+    inputs.constant("GnLight", "whole", input.whole_light().shape);
     inputs.constant("GnBias", "bias", applied_bias(input, recipe));
     return inputs;
 }
@@ -105,7 +106,7 @@ TextureHandle lent(TextureHandle texture, std::string_view what) {
 
 ivec4 lit_pixels(const FrameInput& input) {
     const ivec2 size(static_cast<int>(input.samples.width), static_cast<int>(input.samples.height));
-    if (input.light().shape.kind == GN_LIGHT_DIRECTIONAL) {
+    if (input.whole_light().shape.kind == GN_LIGHT_DIRECTIONAL) {
         return {0, 0, size.x, size.y};
     }
     dvec2 low(1e300);

@@ -56,7 +56,7 @@ std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
     if (casters == Casters::all || (recipe.direct == nullptr && recipe.map == nullptr)) {
         return {};
     }
-    if (recipe.direct != nullptr) {
+    if (recipe.map == nullptr) {
         return fmt::format(
             "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all",
             name_of(casters), recipe.direct->id);
@@ -119,6 +119,28 @@ void check_complete(const Recipe& recipe) {
         fail("recipe {}: map '{}' is read by no lookup; lookups that read it: {}", recipe.name, recipe.map->id,
              lookups_for(*recipe.map));
     }
+    const Part* idle = recipe.light != nullptr      ? recipe.light
+                       : !recipe.visibility.empty() ? recipe.visibility.front()
+                                                    : nullptr;
+    if (idle != nullptr && recipe.map == nullptr && recipe.direct == nullptr) {
+        fail(
+            "recipe {}: {} '{}' works on shadows and no part draws any; name a map and a lookup, or direct, of which "
+            "there are {}",
+            recipe.name, stage_names[static_cast<std::size_t>(idle->stage)], idle->id,
+            ids_of(Stage::direct, [](const Part&) { return true; }));
+    }
+}
+
+bool has_both(const Recipe& recipe) {
+    return recipe.direct != nullptr && (recipe.map != nullptr || recipe.lookup != nullptr);
+}
+
+void check_combine(const Recipe& recipe, const std::string& where) {
+    if (recipe.combine && !has_both(recipe)) {
+        fail("{}: combine = {} has nothing to combine: the recipe names no {}; combine belongs where both stand", where,
+             combine_names.at(static_cast<std::size_t>(*recipe.combine)),
+             recipe.direct == nullptr ? "direct part" : "map beside its direct part");
+    }
 }
 
 std::string stages_misfit(const Recipe& recipe) {
@@ -150,6 +172,10 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
     }
 
     // The stages must fit each other before anything is asked of one.
+    if (has_both(recipe) && !recipe.combine) {
+        refuse("direct '{}' stands beside map '{}' and nothing says how their V become one; combine is {}",
+               recipe.direct->id, recipe.map->id, fmt::join(combine_names, " or "));
+    }
     if (recipe.map != nullptr && recipe.lookup != nullptr) {
         if (const std::string sentence = stages_misfit(recipe); !sentence.empty()) {
             refuse("{}", sentence);
@@ -159,8 +185,9 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
     if (const std::string sentence = casters_misfit(recipe, scene); !sentence.empty()) {
         refuse("{}", sentence);
     }
-    for (const Part* part : {recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        if (part != nullptr) {
+    for (const Part* part : recipe.parts()) {
+        // A placement is asked for the lights that it serves.
+        if (part->stage != Stage::placement) {
             check_part(*part, recipe, scene, light, device);
         }
     }

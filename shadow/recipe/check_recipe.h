@@ -6,8 +6,14 @@
 
 namespace gn {
 
-/// Throws Error when a map stands without a lookup or a lookup without a map: no scene can be drawn with it.
+/// Throws Error when a map stands without a lookup, a lookup without a map, or what changes V without anything that makes
+/// one: no scene can be drawn with it.
 void check_complete(const Recipe& recipe);
+
+/// Whether a direct part stands beside a map.
+bool has_both(const Recipe& recipe);
+/// Throws Error where a combination is named and there is nothing to combine. `where` names the source.
+void check_combine(const Recipe& recipe, const std::string& where);
 
 /// The sentence why the lookup cannot read the map, whatever the scene, or "".
 std::string stages_misfit(const Recipe& recipe);

@@ -24,6 +24,8 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 // The GLSL functions that the shared resolve pass calls, by stage; <id> with '-' as '_', the params argument only where
 // params_type is set:
 //
+//   light       float gn_<id>_weight(GnLight light, GnLight one, vec3 p_ws, ivec2 pixel, int index, int count, Params):
+//               what V of light `index` of `count`, `one`, weighs at a receiver; at least 0
 //   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
 //   lookup      float gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
@@ -63,6 +65,8 @@ class Part {
     std::string_view glsl;         ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none
 
     // Exactly one of these is set, by stage.
+    /// What serves a light in the stages behind: lights without extent, whose V are summed by weight. At least one.
+    std::vector<Light> (*split)(const Light&, const Recipe&) = nullptr;
     LightViews (*place)(const FrameInput&, const Recipe&) = nullptr;
     ShadowMap (*add_map)(const FrameInput&, const Recipe&, const LightViews&) = nullptr;
     /// Lookups normally leave this null: the shared resolve pass calls their GLSL function for every sample.

@@ -18,17 +18,23 @@ constexpr std::string_view name_of(Casters casters) {
     return caster_names[static_cast<std::size_t>(casters)];
 }
 
+/// How V of a direct part and V of a map become one, sample by sample.
+enum class Combine { product, minimum };
+inline constexpr std::array<std::string_view, 2> combine_names{"product", "minimum"};
+
 struct Recipe {
     std::string name;       ///< "pcf"
     std::string overrides;  ///< "resolution=2048,pcf.taps=25", as given; "" when none
     std::string title, paragraph, citation;
+    const Part* light = nullptr;  ///< optional: splits a light into several
     const Part* placement =
         nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
     const Part* map = nullptr;
     const Part* lookup = nullptr;
-    const Part* direct = nullptr;      ///< set instead of the three above; all null: no shadows, V = 1
-    const Part* visibility = nullptr;  ///< optional
-    int resolution = 1024;             ///< texels along a side of the map; per view of multi-view placements
+    const Part* direct = nullptr;         ///< instead of a map, or beside it; without both V = 1
+    std::optional<Combine> combine;       ///< set where a direct part stands beside a map, and only there
+    std::vector<const Part*> visibility;  ///< in the order in which they run; may be empty
+    int resolution = 1024;                ///< texels along a side of the map; per view of multi-view placements
     GnBias bias;
     Casters casters = Casters::all;
     std::map<std::string, ParamBlock, std::less<>> params;  ///< by part id, for every part there is
@@ -41,8 +47,10 @@ struct Recipe {
         return found->second.template as<Params>();
     }
     [[nodiscard]] const ParamBlock& block(const Part& part) const;
+    /// The parts that it names, in the flow's order. A placement left to the lights is none of them.
+    [[nodiscard]] std::vector<const Part*> parts() const;
     /// The placement for a light: as named where that serves such lights, else cube for point lights and fit for all others.
-    [[nodiscard]] const Part& placement_for(const GnLight& light) const;
+    [[nodiscard]] const Part& placement_for(const GnLight& shape) const;
 };
 
 /// Valid values of `resolution`.

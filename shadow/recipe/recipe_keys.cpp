@@ -7,15 +7,11 @@
 namespace gn {
 namespace {
 
-/// Keys that belong to maps; a direct part reads those that it names in Part::reads.
+/// Keys that belong to maps; without one a direct part reads those that it names in Part::reads.
 constexpr std::array<std::string_view, 4> map_keys{"placement", "resolution", "casters", "bias"};
 
 bool reads(const Recipe& recipe, std::string_view map_key) {
-    if (recipe.direct == nullptr) {
-        return recipe.map != nullptr;
-    }
-    const auto& named = recipe.direct->reads;
-    return std::find(named.begin(), named.end(), map_key) != named.end();
+    return recipe.map != nullptr || (recipe.direct != nullptr && holds(recipe.direct->reads, map_key));
 }
 
 /// The placements that the recipe's lights may get: the named one, and those of lights that it does not serve.
@@ -37,8 +33,8 @@ std::vector<const Part*> placements_of(const Recipe& recipe) {
 
 std::vector<const Part*> parts_of(const Recipe& recipe) {
     std::vector<const Part*> parts = placements_of(recipe);
-    for (const Part* part : {recipe.map, recipe.lookup, recipe.direct, recipe.visibility}) {
-        if (part != nullptr) {
+    for (const Part* part : recipe.parts()) {
+        if (part->stage != Stage::placement) {
             parts.push_back(part);
         }
     }
@@ -70,7 +66,7 @@ std::string names_of(std::span<const Part* const> parts) {
 }
 
 std::string keys_of(const Recipe& recipe, std::span<const Part* const> parts) {
-    std::string names = "map, lookup, direct, visibility";
+    std::string names = "light, map, lookup, direct, visibility";
     for (const std::string_view key : map_keys) {
         names += reads(recipe, key) ? fmt::format(", {}{}", key, key == "bias" ? ".*" : "") : "";
     }

@@ -215,6 +215,63 @@ TEST(Recipes, AnOverrideMayChangeTheKindOfTechnique) {
     EXPECT_EQ(mapped.lookup->id, "hard");
 }
 
+TEST(Recipes, ADirectPartStandsBesideAMapWhereTheRecipeSaysHowTheyCombine) {
+    // Wherever the combination stands in the list of overrides.
+    for (const char* text : {"pcf,direct=volumes,combine=minimum", "pcf,combine=minimum,direct=volumes",
+                             "volumes,map=depth,lookup=pcf,combine=minimum"}) {
+        const Recipe recipe = load_recipe(text);
+        ASSERT_TRUE(recipe.map != nullptr && recipe.lookup != nullptr && recipe.direct != nullptr) << text;
+        EXPECT_EQ(recipe.combine, Combine::minimum) << text;
+        EXPECT_EQ(refusal_of(recipe, GN_LIGHT_SPOT, {}), "direct 'volumes' needs the feature " +
+                                                             std::string(feature_name(Feature::float32_blend)) +
+                                                             ", which device 'paper device' lacks");
+    }
+    const RecipeFile file("direct = \"volumes\"\nmap = \"depth\"\nlookup = \"hard\"\ncombine = \"product\"\n");
+    EXPECT_EQ(load_recipe(file.path()).combine, Combine::product);
+    // Without one of the two sides a file's combination means nothing.
+    EXPECT_EQ(load_recipe(file.path() + ",direct=none").combine, std::nullopt);
+    EXPECT_EQ(load_recipe(file.path() + ",combine=minimum").combine, Combine::minimum);
+}
+
+TEST(Recipes, NonsenseIsRefusedByName) {
+    expect_has(sentence_of("pcf,combine=product"), {"combine = product", "no direct part"});
+    expect_has(sentence_of("volumes,combine=product"), {"combine = product", "no map"});
+    expect_has(sentence_of("pcf,direct=volumes,combine=sum"), {"combine = sum", "product", "minimum"});
+    expect_has(sentence_of("none,light=accumulate"), {"light 'accumulate'", "no part draws any", "volumes"});
+    expect_has(sentence_of("none,visibility=bilateral"), {"visibility 'bilateral'", "no part draws any"});
+    expect_has(sentence_of("pcf,visibility=bilateral+bilateral"), {"'bilateral' twice"});
+    expect_has(sentence_of("pcf,visibility=bilateral+"), {"unknown visibility ''", "bilateral"});
+    expect_has(sentence_of("hard,accumulate.lights=4"), {"accumulate.lights would change nothing"});
+    Recipe recipe = load_recipe("hard");
+    recipe.direct = &find_part(Stage::direct, "planar");
+    expect_has(refusal_of(recipe, GN_LIGHT_SPOT, {}), {"'planar'", "'depth'", "combine is product or minimum"});
+}
+
+TEST(Recipes, VisibilityIsOneNameOrAListInOrder) {
+    EXPECT_EQ(load_recipe("pcf").visibility.size(), 0U);
+    EXPECT_EQ(load_recipe("pcf,visibility=bilateral").visibility.front()->id, "bilateral");
+    EXPECT_EQ(load_recipe("pcf-bilateral,visibility=none").visibility.size(), 0U);
+    const std::string map = "map = \"depth\"\nlookup = \"pcf\"\nvisibility = ";
+    const RecipeFile one(map + "\"bilateral\"\n"), list(map + "[\"bilateral\"]\n"), none(map + "[]\n");
+    EXPECT_EQ(load_recipe(one.path()).visibility.size(), 1U);
+    EXPECT_EQ(load_recipe(list.path()).visibility.size(), 1U);
+    EXPECT_EQ(load_recipe(none.path()).visibility.size(), 0U);
+}
+
+TEST(Recipes, SayWhichPartsTheyUseInTheOrderOfTheFlow) {
+    const auto ids = [](const Recipe& recipe) {
+        std::string text;
+        for (const Part* part : recipe.parts()) {
+            text += fmt::format("{}/{} ", stage_names[static_cast<std::size_t>(part->stage)], part->id);
+        }
+        return text;
+    };
+    EXPECT_EQ(ids(load_recipe("none")), "");
+    EXPECT_EQ(ids(load_recipe("volumes,light=accumulate")), "light/accumulate direct/volumes ");
+    EXPECT_EQ(ids(load_recipe("pcf-bilateral,placement=fit,direct=planar,combine=product")),
+              "placement/fit map/depth lookup/pcf direct/planar visibility/bilateral ");
+}
+
 TEST(Recipes, MistakesEndInASentenceThatNamesWhatIsValid) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
         {"pfc", {"'pfc'", "did you mean 'pcf'", "volumes"}},
@@ -265,7 +322,9 @@ TEST(Recipes, FilesAreCheckedLineByLine) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"map = \"depth\"\nlookup = \n", "line 2"},
         {"map = [\"depth\"]\n", "map is neither"},
-        {"direct = \"volumes\"\nmap = \"depth\"\n", "either direct or"},
+        {"direct = \"volumes\"\nmap = \"depth\"\n", "combine is product or minimum"},
+        {"direct = \"volumes\"\ncombine = \"minimum\"\n", "nothing to combine"},
+        {"map = \"depth\"\nlookup = \"hard\"\nvisibility = [\"bilateral\", 3]\n", "no part's name"},
         {"speed = 3\n", "unknown key 'speed'"},
         {"[speed]\nlimit = 3\n", "unknown key 'speed'"},
         {"map = \"depth\"\nlookup = \"pcf\"\n[pcf]\ntaps = {a = 1}\n", "pcf.taps is neither"},

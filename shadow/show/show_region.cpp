@@ -57,8 +57,9 @@ vec3 texel(const Image& image, std::size_t i) {
 
 std::vector<KernelRegion> kernel_regions(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                                          const HiddenOptions& options) {
-    // A filter of V on the screen draws on other pixels.
-    if (recipe.map == nullptr || recipe.lookup == nullptr || recipe.visibility != nullptr) {
+    // A filter of V on the screen draws on other pixels, a split light on other views, a direct part on no map.
+    if (recipe.map == nullptr || recipe.lookup == nullptr || recipe.direct != nullptr || recipe.light != nullptr ||
+        !recipe.visibility.empty()) {
         return {};
     }
     FrameGraph graph(device);

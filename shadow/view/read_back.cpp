@@ -94,7 +94,7 @@ void add_lit(const FrameInput& input, const char* name, const Visibility& result
         GnViewConstants view;
         GnLight light;
     };
-    const Constants constants{input.samples.constants, input.light().shape};
+    const Constants constants{input.samples.constants, input.whole_light().shape};
     input.graph.add_pass(
         name,
         [&](PassBuilder& pass) {

@@ -252,7 +252,7 @@ Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
             pass.sample(samples.position);
             pass.sample(samples.normal);
         },
-        [samples, counts, light = input.light().shape](Recorder& r) {
+        [samples, counts, light = input.whole_light().shape](Recorder& r) {
             r.bind(fullscreen({ShaderKind::fragment, "volume-resolve.frag", resolve_text}));
             r.set("counts", counts);
             r.set_value("u", light);

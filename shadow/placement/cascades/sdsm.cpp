@@ -23,7 +23,7 @@ GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     const dvec3 eye(camera.position_ws);
     const auto axis = [&](dvec3 direction) { return vec4(dvec4(direction, glm::dot(direction, eye))); };
     GnSdsmConstants u;
-    u.light = input.light().shape;
+    u.light = input.whole_light().shape;
     u.params = params;
     u.x_ws = axis(frame.x);
     u.y_ws = axis(frame.y);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The order of the stages: what a recipe combines, and in which order V is changed.
+#include "tests/rig.h"
+
+#include <algorithm>
+
+namespace gn {
+namespace {
+
+std::vector<float> values_of(const Scene& scene, const Recipe& recipe) {
+    const test::ValidationGuard guard;
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const FrameResult frame =
+        render_frame(test::device(), gpu, scene.camera(""), recipe,
+                     {.width = 96, .height = 96, .repeat = 0, .only_light = 0, .picture = false});
+    EXPECT_EQ(frame.refused.front(), "");
+    return frame.visibility.front().values;
+}
+
+TEST(Frame, AMapAndADirectPartCombineAsTheRecipeSays) {
+    // Two soft answers that differ, so that the product is neither of them.
+    const Scene scene = load_scene("contact");
+    const std::string pcf = "pcf,pcf.size=7,resolution=128", forward = "forward,forward.radius=4,resolution=128";
+    const std::string both = pcf + ",direct=forward,forward.radius=4,combine=";
+    const std::vector<float> mapped = values_of(scene, load_recipe(pcf));
+    const std::vector<float> direct = values_of(scene, load_recipe(forward + ",placement=fit"));
+    const std::vector<float> product = values_of(scene, load_recipe(both + "product"));
+    const std::vector<float> minimum = values_of(scene, load_recipe(both + "minimum"));
+    std::size_t soft = 0;
+    for (std::size_t i = 0; i < mapped.size(); ++i) {
+        EXPECT_FLOAT_EQ(product[i], mapped[i] * direct[i]) << i;
+        EXPECT_EQ(minimum[i], std::min(mapped[i], direct[i])) << i;
+        soft += product[i] > 0 && product[i] < minimum[i] ? 1 : 0;
+    }
+    EXPECT_GT(soft, 20U);
+}
+
+/// A part that changes every V by a line of GLSL.
+Part changing(std::string_view id, Visibility (*add)(const FrameInput&, const Recipe&, const Visibility&)) {
+    Part part;
+    part.id = id;
+    part.stage = Stage::visibility;
+    part.add_visibility = add;
+    return part;
+}
+
+template <int kind>
+Visibility change(const FrameInput& input, const Recipe&, const Visibility& given) {
+    const std::string text = fmt::format(R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D given;
+layout(binding = 1, r32f) uniform writeonly image2D changed;
+void main() {{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, imageSize(changed)))) {{
+        float v = texelFetch(given, pixel, 0).r;
+        imageStore(changed, pixel, vec4({}));
+    }}
+}}
+)",
+                                         kind == 0 ? "0.5 * v" : "0.25 + 0.75 * v");
+    const Visibility result{create_visibility(input.graph, input.samples)};
+    input.graph.add_pass(
+        "change",
+        [&](PassBuilder& pass) {
+            pass.sample(given.image);
+            pass.storage_write(result.image);
+        },
+        [=, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "change", text}, {}});
+            r.set("given", given.image);
+            r.set_storage("changed", result.image);
+            r.dispatch_pixels(size.x, size.y);
+        });
+    return result;
+}
+
+TEST(Frame, VisibilityPartsRunInTheOrderOfTheList) {
+    const Scene scene = load_scene("contact");
+    const Part halved = changing("halved", change<0>), lifted = changing("lifted", change<1>);
+    Recipe recipe = load_recipe("hard");
+    const std::vector<float> hard = values_of(scene, recipe);
+    recipe.visibility = {&halved, &lifted};
+    const std::vector<float> first = values_of(scene, recipe);
+    recipe.visibility = {&lifted, &halved};
+    const std::vector<float> second = values_of(scene, recipe);
+    for (std::size_t i = 0; i < hard.size(); ++i) {
+        EXPECT_EQ(first[i], 0.25F + 0.75F * 0.5F * hard[i]);
+        EXPECT_EQ(second[i], 0.5F * (0.25F + 0.75F * hard[i]));
+    }
+    EXPECT_GT(std::count(hard.begin(), hard.end(), 1.0F), 100);
+}
+
+}  // namespace
+}  // namespace gn

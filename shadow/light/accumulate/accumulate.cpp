@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// An area light as many points, each with a hard shadow of its own: soft shadows without any assumption about what casts
+// them, at the price of as many shadows.
+//
+// Based on: Haeberli, Akeley. The Accumulation Buffer: Hardware Support for High-Quality Rendering. SIGGRAPH 1990. [HA90]
+// Departs from it: points of a sphere weigh what each receiver sees of them; pixels may share the points out.
+#include "shadow/light/accumulate/accumulate.h"
+
+#include "shadow/recipe/recipe.h"
+#include "shadow/scene/light_samples.h"
+
+namespace gn {
+namespace {
+
+std::vector<Light> split(const Light& light, const Recipe& recipe) {
+    const auto params = recipe.of<GnAccumulateParams>("accumulate");
+    std::vector<Light> lights;
+    for (const GnLight& point : light_samples(light.shape, params.lights, params.share).points) {
+        lights.push_back({.name = light.name, .shape = point, .spared = light.spared});
+    }
+    return lights;
+}
+
+std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
+    const auto params = recipe.of<GnAccumulateParams>("accumulate");
+    if (params.share * params.share > params.lights) {
+        return fmt::format(
+            "light 'accumulate' cannot share {} lights among {} x {} pixels; accumulate.share is at most {}",
+            params.lights, params.share, params.share, static_cast<int>(std::sqrt(static_cast<float>(params.lights))));
+    }
+    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->id == "single" &&
+        light.shape.kind == GN_LIGHT_SPOT) {
+        return fmt::format(
+            "placement 'single' sees the cone of light '{}' from its centre, and light 'accumulate' looks from other "
+            "points too; use placement=fit or cube",
+            light.name);
+    }
+    return {};
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& light_accumulate() {
+    static const Part part = [] {
+        Part p;
+        p.id = "accumulate";
+        p.stage = Stage::light;
+        p.title = "Soft shadows summed from the hard shadows of points of the light";
+        p.citation = "HA90";
+        p.params = param_table<GnAccumulateParams>({
+            GN_PARAM(GnAccumulateParams, lights, integer, 1, 1024, "",
+                     "Finer steps in penumbrae, cost grows in proportion; memory does not."),
+            GN_PARAM(GnAccumulateParams, share, integer, 1, 8, "pixels",
+                     "Side of the square of pixels that share the points out: steps become noise for a filter of V."),
+        });
+        p.params_type = "GnAccumulateParams";
+        p.glsl = "shadow/light/accumulate/accumulate.glsl";
+        p.split = split;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// The sum of the shadows of a light's points is what rays to the same points say.
+#include "scenes/analytic.h"
+#include "shadow/scene/light_samples.h"
+#include "shadow/show/show.h"
+#include "tests/direct_scenes.h"
+#include "tests/rig.h"
+
+namespace gn {
+namespace {
+
+constexpr uint side = 96;
+
+/// A box that floats above a ground, lit from above and beside by a light of some extent.
+const scenes::SolidBox floating{{-0.6, 0.8, -0.5}, {0.5, 1.3, 0.6}};
+
+Scene scene_under(const GnLight& light) {
+    return by_hand::SceneBuilder()
+        .ground(6)
+        .box(vec3(floating.low), vec3(floating.high))
+        .light(light)
+        .camera({0.5F, 4, 5}, {0, 0.4F, 0})
+        .scene();
+}
+
+/// One light of each kind, wide enough for penumbrae of many pixels.
+std::vector<GnLight> area_lights() {
+    GnLight sun = by_hand::sun({0.4F, -1, -0.3F});
+    sun.angular_radius = 0.15F;
+    GnLight spot = by_hand::spot({-1.5F, 4, 1}, {0, 0, 0}, 0.8F);
+    spot.radius = 0.5F;
+    GnLight sphere = by_hand::point({-1, 3, 1});
+    sphere.radius = 0.5F;
+    GnLight panel = by_hand::rectangle({-1, 3.5F, 1.5F}, {0, 0, 0});
+    panel.half_size = vec2(0.6F, 0.3F);
+    return {sun, spot, sphere, panel};
+}
+
+FrameResult render(const Scene& scene, const std::string& recipe) {
+    const test::ValidationGuard guard;
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    FrameResult frame = render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),
+                                     {.width = side, .height = side, .repeat = 0, .only_light = 0, .picture = false});
+    EXPECT_EQ(frame.refused.front(), "");
+    return frame;
+}
+
+TruthResult traced(const Scene& scene, const CpuSamples& seen, const LightSamples& samples) {
+    return Truth(scene).trace(seen.position_ws, seen.normal_ws, scene.lights.front(),
+                              {.exactly = &samples, .width = side});
+}
+
+/// Where the hard shadow of some point of the light has an edge, or a surface holds the point in its plane.
+std::vector<std::uint8_t> edges_of_points(const Scene& scene, const CpuSamples& seen, const LightSamples& samples) {
+    std::vector<std::uint8_t> any(seen.position_ws.size(), 0);
+    for (const GnLight& point : samples.points) {
+        const TruthResult one = traced(scene, seen, {{point}});
+        const std::vector<std::uint8_t> edges = edge_pixels(one.visibility, one.counted, side, side);
+        for (std::size_t i = 0; i < any.size(); ++i) {
+            const vec3 p_ws(seen.position_ws[i]);
+            const bool grazing = std::abs(glm::dot(vec3(seen.normal_ws[i]), gn_to_light(point, p_ws))) < 1e-4F;
+            any[i] = any[i] != 0 || edges[i] != 0 || grazing ? 1 : 0;
+        }
+    }
+    return any;
+}
+
+TEST(Accumulate, VolumesOfThePointsAreTheTracedPointsOutsideEdgePixels) {
+    for (const std::string& rest : {std::string(",accumulate.lights=9"), std::string(",accumulate.lights=16,accumulate.share=2")}) {
+        for (const GnLight& light : area_lights()) {
+            SCOPED_TRACE(fmt::format("{}{}", light_kind_names.at(light.kind), rest));
+            const Scene scene = scene_under(light);
+            const FrameResult frame = render(scene, "volumes,light=accumulate" + rest);
+            const bool shared = rest.ends_with("2");
+            const LightSamples samples = light_samples(light, shared ? 16 : 9, shared ? 2 : 1);
+            const TruthResult truth = traced(scene, frame.samples, samples);
+            const std::vector<std::uint8_t> edges = edges_of_points(scene, frame.samples, samples);
+            std::size_t judged = 0;
+            std::size_t partial = 0;
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < edges.size(); ++i) {
+                const float v = frame.visibility.front().values[i];
+                if (truth.counted[i] != 0 && edges[i] == 0) {
+                    ++judged;
+                    partial += truth.visibility[i] > 0.01F && truth.visibility[i] < 0.99F ? 1 : 0;
+                    // Sums of sixteen weights in floats.
+                    wrong += std::abs(v - truth.visibility[i]) > 1e-5F ? 1 : 0;
+                }
+                EXPECT_TRUE(truth.counted[i] != 0 || v == 0) << i;
+            }
+            EXPECT_EQ(wrong, 0U) << "of " << judged;
+            EXPECT_GT(judged, side * side / 3);
+            EXPECT_GT(partial, 40U);
+        }
+    }
+}
+
+/// Which V of one point a receiver on the ground may be given by a map that holds the box to half a texel.
+struct Range {
+    float low = 1, high = 0;
+};
+Range within_half_a_texel(const GnLight& point, vec3 p_ws, const KernelRegion& region) {
+    Range range;
+    const vec3 ray_ws = gn_to_light(point, p_ws);
+    for (int s = -4; s <= 4; ++s) {
+        for (int t = -4; t <= 4; ++t) {
+            // A region is a texel and a half about the receiver; a hundredth covers rounding. Along the ray to the ground.
+            const vec3 across = (static_cast<float>(s) * region.a_ws + static_cast<float>(t) * region.b_ws) *
+                                (0.51F / 1.5F / 4);
+            const vec3 q_ws = p_ws + across - ray_ws * (across.y / ray_ws.y);
+            const auto v = static_cast<float>(*scenes::box_visibility(point, {&floating, 1}, dvec3(q_ws)));
+            range.low = std::min(range.low, v);
+            range.high = std::max(range.high, v);
+        }
+    }
+    return range;
+}
+
+TEST(Accumulate, MapsOfThePointsAreTheTracedPointsToHalfATexel) {
+    const int count = 8;
+    for (const GnLight& light : area_lights()) {
+        SCOPED_TRACE(light_kind_names.at(light.kind));
+        // No bias moves a receiver across the light.
+        const std::string rest = ",resolution=256,placement=fit,bias.normal=0";
+        const Scene scene = scene_under(light);
+        const FrameResult frame = render(scene, "hard,light=accumulate,accumulate.lights=8" + rest);
+        const LightSamples samples = light_samples(light, count);
+        const TruthResult truth = traced(scene, frame.samples, samples);
+        const std::size_t pixels = frame.samples.position_ws.size();
+
+        // What every point's map may say of each receiver on the ground.
+        std::vector<double> low(pixels, 0), high(pixels, 0), weights(pixels, 0);
+        for (const GnLight& point : samples.points) {
+            const Scene hard = scene_under(point);
+            SceneGpu gpu = upload_scene(test::device(), hard);
+            const std::vector<KernelRegion> regions = kernel_regions(
+                test::device(), gpu, hard.camera(""), load_recipe("hard" + rest), {.width = side, .height = side});
+            for (std::size_t i = 0; i < pixels; ++i) {
+                const vec3 p_ws(frame.samples.position_ws[i]);
+                if (truth.counted[i] == 0 || std::abs(p_ws.y) > 1e-4F) {
+                    continue;
+                }
+                const Range range = within_half_a_texel(point, p_ws, regions[i]);
+                const double weight = gn_point_weight(light, point, p_ws);
+                low[i] += weight * range.low;
+                high[i] += weight * range.high;
+                weights[i] += weight;
+            }
+        }
+        std::size_t judged = 0;
+        std::size_t beyond = 0;
+        double doubt = 0;
+        double error = 0;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            if (weights[i] > 0) {
+                const double v = frame.visibility.front().values[i];
+                ++judged;
+                beyond += v < low[i] / weights[i] - 1e-5 || v > high[i] / weights[i] + 1e-5 ? 1 : 0;
+                doubt += (high[i] - low[i]) / weights[i];
+                error += std::abs(v - static_cast<double>(truth.visibility[i]));
+            }
+        }
+        EXPECT_EQ(beyond, 0U) << "of " << judged;
+        EXPECT_GT(judged, side * side / 4);
+        EXPECT_LT(doubt / static_cast<double>(judged), 0.05);
+        EXPECT_GT(error, 0) << "a map that has no texels is no map";
+    }
+}
+
+TEST(Accumulate, PointsBelowTheHorizonLightNothing) {
+    // Half of an upright panel is under the floor: a map's bias would let its points through.
+    GnLight panel = by_hand::rectangle({-4, 0, 0}, {0, 0, 0});
+    panel.position_ws.y = 0.01F;
+    panel.half_size = vec2(1, 1);
+    panel.right_ws = vec4(0, 0, 1, 0);
+    panel.up_ws = vec4(0, 1, 0, 0);
+    panel.direction_ws = vec4(1, 0, 0, 0);
+    const Scene scene = by_hand::SceneBuilder().ground(3).light(panel).camera({1, 3, 4}, {0, 0, 0}).scene();
+    const FrameResult frame = render(scene, "hard,light=accumulate,accumulate.lights=16");
+    const TruthResult truth = traced(scene, frame.samples, light_samples(panel, 16));
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < truth.counted.size(); ++i) {
+        if (truth.counted[i] != 0) {
+            ++judged;
+            EXPECT_EQ(frame.visibility.front().values[i], 0.5F) << i;
+            EXPECT_EQ(truth.visibility[i], 0.5F) << i;
+        }
+    }
+    EXPECT_GT(judged, side * side / 8);
+}
+
+TEST(Accumulate, BytesDoNotGrowWithTheNumberOfLights) {
+    const Scene scene = scene_under(area_lights().back());
+    for (const char* recipe : {"hard,light=accumulate", "volumes,light=accumulate"}) {
+        const GraphStatistics few = render(scene, fmt::format("{},accumulate.lights=2", recipe)).statistics;
+        const GraphStatistics many = render(scene, fmt::format("{},accumulate.lights=32", recipe)).statistics;
+        EXPECT_EQ(few.transient_bytes, many.transient_bytes) << recipe;
+        EXPECT_EQ(few.resources.size(), many.resources.size()) << recipe;
+        EXPECT_LT(few.passes.size(), many.passes.size()) << recipe;
+    }
+}
+
+TEST(Accumulate, ALightWithoutExtentKeepsItsHardShadow) {
+    const Scene scene = scene_under(by_hand::point({-1, 3, 1}));
+    EXPECT_EQ(render(scene, "hard,light=accumulate,accumulate.share=4").visibility.front().values,
+              render(scene, "hard").visibility.front().values);
+}
+
+TEST(Accumulate, WhatCannotBeIsRefusedByName) {
+    const auto refused = [](const GnLight& light, const std::string& recipe) {
+        const Scene scene = scene_under(light);
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        return render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),
+                            {.width = 16, .height = 16, .repeat = 0, .only_light = 0, .picture = false})
+            .refused.front();
+    };
+    EXPECT_NE(refused(area_lights()[1], "hard,light=accumulate,placement=single").find("placement=fit"), std::string::npos);
+    EXPECT_EQ(refused(area_lights()[0], "hard,light=accumulate,placement=single,accumulate.lights=2"), "");
+    EXPECT_NE(refused(area_lights()[0], "hard,light=accumulate,accumulate.lights=8,accumulate.share=3")
+                  .find("accumulate.share is at most 2"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace gn

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Based on: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia Courses 2009. [EASW09]
+// Eq. 1.6, with weights: V of an area is the mean of the V of its points.
+#include "shadow/light/weighted.h"
+
+#include "shadow/frame/frame.h"
+#include "shadow/receiver/expect.h"
+#include "shadow/receiver/sample_pass.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* begin_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    vec4 position = gbuffer_position_texel(pixel);
+    vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
+    bool counted = position.w > 0.5 && gn_counted(u.light, position.xyz, n_ws);
+)";
+
+// Adds w V and w of one light to the sums.
+constexpr const char* add_text = R"(
+    float weight = counted ? GN_WEIGHT(u.light, u.one, position.xyz, pixel, u.index, u.count) : 0.0;
+    float v = dot(n_ws, gn_to_light(u.one, position.xyz)) > 0.0 ? texelFetch(visibility, pixel, 0).r : 0.0;
+    vec2 before = u.index > 0 ? imageLoad(sums, pixel).xy : vec2(0.0);
+    imageStore(sums, pixel, vec4(before + (weight > 0.0 ? weight * vec2(v, 1.0) : vec2(0.0)), 0.0, 0.0));
+}
+)";
+
+constexpr const char* mean_text = R"(
+    vec2 sum = imageLoad(sums, pixel).xy;
+    float v = sum.y > 0.0 ? sum.x / sum.y : 1.0;
+    imageStore(visibility, pixel, vec4(counted ? gn_unit(v) : 0.0));
+}
+)";
+
+/// A pass over the view samples; its shader has u.view, u.light and what `inputs` adds.
+void add_pass(const FrameInput& input, const char* name, const std::string& prologue, ShaderInputs inputs,
+              const char* text) {
+    add_gbuffer(inputs, input.device, input.samples);
+    const ComputeDesc shader{{ShaderKind::compute, name,
+                              expect_text(input.device) + "#include \"shadow/view/view.glsl\"\n" + prologue +
+                                  inputs.text() + begin_text + text},
+                             {}};
+    input.graph.add_pass(
+        name, [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
+            r.bind(shader);
+            inputs.set(r);
+            r.dispatch_pixels(size.x, size.y);
+        });
+}
+
+ShaderInputs inputs_of(const FrameInput& input) {
+    ShaderInputs inputs;
+    inputs.constant("GnViewConstants", "view", input.samples.constants);
+    inputs.constant("GnLight", "light", input.whole_light().shape);
+    return inputs;
+}
+
+void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility, TextureHandle sums) {
+    const Part& part = *recipe.light;
+    ShaderInputs inputs = inputs_of(one);
+    inputs.constant("GnLight", "one", one.light().shape).constant("int", "index", index).constant("int", "count", count);
+    inputs.constant_bytes(part.params_type, "params", recipe.block(part).bytes());
+    inputs.texture("sampler2D", "visibility", visibility);
+    inputs.image("rg32f", "", "image2D", "sums", sums);
+    add_pass(one, "light: add",
+             include_line(part.glsl) +
+                 fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
+                             "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
+                             identifier(part.id)),
+             std::move(inputs), add_text);
+}
+
+}  // namespace
+
+Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
+                        const std::function<Visibility(const FrameInput&)>& serve) {
+    FrameGraph& graph = input.graph;
+    const auto lights = std::make_shared<const std::vector<Light>>(recipe.light->split(input.light(), recipe));
+    GN_CHECK(!lights->empty());
+    const TextureHandle sums = graph.create({.name = "light sums",
+                                             .format = VK_FORMAT_R32G32_SFLOAT,
+                                             .width = input.samples.width,
+                                             .height = input.samples.height});
+
+    // Serve light after light, each with what the one before has done with.
+    graph.begin_rounds();
+    for (std::size_t i = 0; i < lights->size(); ++i) {
+        graph.next_round();
+        FrameInput one = input;
+        one.source = &lights->at(i);
+        one.parent = &input.light();
+        one.history = nullptr;
+        add_one(one, recipe, static_cast<int>(i), static_cast<int>(lights->size()), serve(one).image, sums);
+    }
+    graph.end_rounds();
+
+    // Passes point to the lights: they live as long as the graph.
+    graph.own(lights);
+    const Visibility result{create_visibility(graph, input.samples)};
+    ShaderInputs inputs = inputs_of(input);
+    inputs.image("rg32f", "readonly", "image2D", "sums", sums);
+    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
+    add_pass(input, "light: mean", "", std::move(inputs), mean_text);
+    return result;
+}
+
+}  // namespace gn

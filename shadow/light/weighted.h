@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// A light that is served as several: the stages behind run for each, and V is the weighted mean.
+#pragma once
+
+#include "shadow/recipe/recipe.h"
+
+#include <functional>
+
+namespace gn {
+
+/// V of the input's light by the recipe's light part: sum of w_i(p) V_i(p) over sum of w_i(p), 1 where no light weighs
+/// anything, 0 where the sample does not count for the whole light. A light behind a sample's surface shows it nothing.
+/// `serve` adds the stages behind for one light. All lights share one set of resources, so that bytes do not grow with
+/// their number; histories keep nothing of them.
+Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
+                        const std::function<Visibility(const FrameInput&)>& serve);
+
+}  // namespace gn
