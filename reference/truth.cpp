@@ -76,9 +76,9 @@ Estimate trace_single(const Occluders& occluders, const Blockers& blockers, cons
     return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
 }
 
-/// The weighted mean over points that are given.
-Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, const Seat& seat, const GnLight& light,
-                       const LightSamples& samples, ivec2 pixel) {
+/// The weighted mean over points that are given. What lies behind the sample's own surface is hidden by it.
+Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, const Seat& seat, vec3 n_ws,
+                       const GnLight& light, const LightSamples& samples, ivec2 pixel) {
     const int count = static_cast<int>(samples.points.size());
     double visible = 0;
     double weights = 0;
@@ -88,10 +88,12 @@ Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, con
             gn_point_taken(i, count, pixel, samples.side) ? gn_point_weight(light, one, seat.origin_ws) : 0.0F;
         if (weight > 0) {
             Packet<1> ray;
-            aim(ray, 0, seat.origin_ws, LightSampler(one, seat.origin_ws).centre());
+            const LightPoint point = LightSampler(one, seat.origin_ws).centre();
+            aim(ray, 0, seat.origin_ws, point);
             const int valid = -1;
             occluders.trace(seat, blockers, &valid, ray);
-            visible += ray.rays.tfar[0] < 0.0F ? 0.0 : static_cast<double>(weight);
+            const bool seen = ray.rays.tfar[0] >= 0.0F && glm::dot(n_ws, point.direction_ws) > 0.0F;
+            visible += seen ? static_cast<double>(weight) : 0.0;
             weights += static_cast<double>(weight);
         }
     }
@@ -198,7 +200,7 @@ struct Job {
                          vec3 n_ws) const {
         if (options.exactly != nullptr) {
             const ivec2 pixel(static_cast<int>(i % options.width), static_cast<int>(i / options.width));
-            return trace_exactly(occluders, by, seat, light, *options.exactly, pixel);
+            return trace_exactly(occluders, by, seat, n_ws, light, *options.exactly, pixel);
         }
         if (sampler.single()) {
             return trace_single(occluders, by, seat, sampler, n_ws);

@@ -19,7 +19,7 @@ struct TruthOptions {
     bool (*stop)() = nullptr;  ///< asked by every thread before every view sample; true leaves the rest untraced
     bool integral = false;     ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
     /// Instead of random points of the light exactly these, for tests: V is their weighted mean, without an error of its
-    /// own. Not together with `integral`.
+    /// own; points behind a sample's surface show it nothing, though it be a sheet that no ray meets again. Not together with `integral`.
     const LightSamples* exactly = nullptr;
     uint width = 0;  ///< with `exactly`: of the picture that the view samples fill row by row
 };

@@ -7,30 +7,68 @@
 namespace gn {
 namespace {
 
-std::vector<float> values_of(const Scene& scene, const Recipe& recipe) {
+FrameResult frame_of(const Scene& scene, const Recipe& recipe) {
     const test::ValidationGuard guard;
     SceneGpu gpu = upload_scene(test::device(), scene);
-    const FrameResult frame =
-        render_frame(test::device(), gpu, scene.camera(""), recipe,
-                     {.width = 96, .height = 96, .repeat = 0, .only_light = 0, .picture = false});
+    FrameResult frame = render_frame(test::device(), gpu, scene.camera(""), recipe,
+                                     {.width = 96, .height = 96, .repeat = 0, .only_light = 0, .picture = false});
     EXPECT_EQ(frame.refused.front(), "");
-    return frame.visibility.front().values;
+    return frame;
+}
+
+std::vector<float> values_of(const Scene& scene, const Recipe& recipe) {
+    return frame_of(scene, recipe).visibility.front().values;
+}
+
+/// V that changes from place to place and owes nothing to shadows: the fraction of x.
+Visibility add_striped(const FrameInput& input, const Recipe&) {
+    const Visibility result{create_visibility(input.graph, input.samples)};
+    input.graph.add_pass(
+        "striped",
+        [&](PassBuilder& pass) {
+            pass.sample(input.samples.position);
+            pass.storage_write(result.image);
+        },
+        [=, samples = input.samples](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "striped", R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D position;
+layout(binding = 1, r32f) uniform writeonly image2D visibility;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, imageSize(visibility)))) {
+        imageStore(visibility, pixel, vec4(fract(texelFetch(position, pixel, 0).x)));
+    }
+}
+)"},
+                               {}});
+            r.set("position", samples.position);
+            r.set_storage("visibility", result.image);
+            r.dispatch_pixels(samples.width, samples.height);
+        });
+    return result;
 }
 
 TEST(Frame, AMapAndADirectPartCombineAsTheRecipeSays) {
-    // Two soft answers that differ, so that the product is neither of them.
     const Scene scene = load_scene("contact");
-    const std::string pcf = "pcf,pcf.size=7,resolution=128", forward = "forward,forward.radius=4,resolution=128";
-    const std::string both = pcf + ",direct=forward,forward.radius=4,combine=";
-    const std::vector<float> mapped = values_of(scene, load_recipe(pcf));
-    const std::vector<float> direct = values_of(scene, load_recipe(forward + ",placement=fit"));
-    const std::vector<float> product = values_of(scene, load_recipe(both + "product"));
-    const std::vector<float> minimum = values_of(scene, load_recipe(both + "minimum"));
+    Recipe recipe = load_recipe("pcf,pcf.size=7,resolution=128");
+    const std::vector<float> mapped = values_of(scene, recipe);
+    Part striped;
+    striped.id = "striped";
+    striped.stage = Stage::direct;
+    striped.add_direct = add_striped;
+    recipe.direct = &striped;
+    recipe.combine = Combine::product;
+    const FrameResult product = frame_of(scene, recipe);
+    recipe.combine = Combine::minimum;
+    const std::vector<float> minimum = values_of(scene, recipe);
     std::size_t soft = 0;
     for (std::size_t i = 0; i < mapped.size(); ++i) {
-        EXPECT_FLOAT_EQ(product[i], mapped[i] * direct[i]) << i;
-        EXPECT_EQ(minimum[i], std::min(mapped[i], direct[i])) << i;
-        soft += product[i] > 0 && product[i] < minimum[i] ? 1 : 0;
+        const float x = product.samples.position_ws[i].x;
+        const float direct = x - std::floor(x), both = product.visibility.front().values[i];
+        EXPECT_EQ(both, mapped[i] * direct) << i;
+        EXPECT_EQ(minimum[i], std::min(mapped[i], direct)) << i;
+        soft += both > 0 && both < minimum[i] ? 1 : 0;
     }
     EXPECT_GT(soft, 20U);
 }

@@ -62,18 +62,20 @@ ShaderInputs inputs_of(const FrameInput& input) {
     return inputs;
 }
 
-void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility, TextureHandle sums) {
+void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility,
+             TextureHandle sums) {
     const Part& part = *recipe.light;
     ShaderInputs inputs = inputs_of(one);
-    inputs.constant("GnLight", "one", one.light().shape).constant("int", "index", index).constant("int", "count", count);
+    inputs.constant("GnLight", "one", one.light().shape)
+        .constant("int", "index", index)
+        .constant("int", "count", count);
     inputs.constant_bytes(part.params_type, "params", recipe.block(part).bytes());
     inputs.texture("sampler2D", "visibility", visibility);
     inputs.image("rg32f", "", "image2D", "sums", sums);
     add_pass(one, "light: add",
-             include_line(part.glsl) +
-                 fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
-                             "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
-                             identifier(part.id)),
+             include_line(part.glsl) + fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
+                                                   "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
+                                                   identifier(part.id)),
              std::move(inputs), add_text);
 }
 

@@ -68,16 +68,17 @@ int parse_resolution(std::string_view value, const std::string& where) {
     return texels;
 }
 
+const Part& find_named(Stage stage, std::string_view name, const std::string& where) {
+    try {
+        return find_part(stage, name);
+    } catch (const Error& error) {
+        fail("{}: {}{}", where, error.what(), stage == Stage::placement ? ", auto" : ", none");
+    }
+}
+
 /// A stage's part by name; null for the word that leaves the stage out.
 const Part* named_part(Stage stage, std::string_view name, std::string_view absent, const std::string& where) {
-    if (name == absent) {
-        return nullptr;
-    }
-    try {
-        return &find_part(stage, name);
-    } catch (const Error& error) {
-        fail("{}: {}{}", where, error.what(), absent == "auto" ? ", auto" : ", none");
-    }
+    return name == absent ? nullptr : &find_named(stage, name, where);
 }
 
 /// The parts of "one+another", in this order; none for "none".
@@ -86,7 +87,7 @@ std::vector<const Part*> named_parts(Stage stage, std::string_view names, const 
     for (std::size_t first = 0; first <= names.size();) {
         const std::size_t end = std::min(names.find('+', first), names.size());
         const std::string_view name = without_blanks(names.substr(first, end - first));
-        const Part* part = named_part(stage, name, name == names ? "none" : "", where);
+        const Part* part = names == "none" ? nullptr : &find_named(stage, name, where);
         if (std::find(parts.begin(), parts.end(), part) != parts.end()) {
             fail("{}: {} = {} names '{}' twice; each part stands once, with one set of parameters", where,
                  stage_names[static_cast<std::size_t>(stage)], names, name);

@@ -40,8 +40,8 @@ vec3 on_surface(const GnLight& light, vec2 u) {
         }
         default: {
             // All directions are a cone of 180 degrees.
-            return centre_ws + light.radius * direction_in_cone(disc_from_square(u), 2.0F, vec3(1, 0, 0),
-                                                                vec3(0, 1, 0), vec3(0, 0, 1));
+            return centre_ws + light.radius * direction_in_cone(disc_from_square(u), 2.0F, vec3(1, 0, 0), vec3(0, 1, 0),
+                                                                vec3(0, 0, 1));
         }
     }
 }
@@ -66,7 +66,8 @@ LightSamples light_samples(const GnLight& light, int count, int side) {
     GN_CHECK(count >= 1 && side >= 1 && side * side <= count);
     LightSamples samples;
     if (!has_extent(light)) {
-        samples.points = {bare(light, vec3(light.kind == GN_LIGHT_DIRECTIONAL ? light.direction_ws : light.position_ws))};
+        samples.points = {
+            bare(light, vec3(light.kind == GN_LIGHT_DIRECTIONAL ? light.direction_ws : light.position_ws))};
         return samples;
     }
     samples.side = side;
