@@ -302,7 +302,7 @@ TEST_F(Plan, RoundsShareOneSetOfResources) {
     // What a round draws waits for what the round before still read.
     const GraphPlan& plan = graph.plan();
     ASSERT_EQ(plan.passes.size(), 9U);
-    const auto& waits = plan.passes[3].textures;
+    const auto& waits = plan.passes[3].images;
     EXPECT_EQ(std::count_if(waits.begin(), waits.end(), [&](const auto& w) { return w.texture == first[0]; }), 1);
 }
 
