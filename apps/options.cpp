@@ -171,7 +171,7 @@ struct Parser {
                          "Frames with sub-pixel shifts that are averaged; each costs a whole frame, 1 smooths "
                          "nothing; V and --show are of the unshifted frame (default: 4)")
             ->check(CLI::Range(1, 64));
-        command->add_option("--visibility", render.visibility, "Also write V as .exr, one channel a light");
+        command->add_option("--visibility", render.visibility, "Also write V as .exr, a channel a light, or three in colour");
         command->add_option("--show", render.show,
                             "Instead of the picture, what the recipe hides: " + known_pictures());
         command->add_option("--light", render.light, "The light that --show is of (default: the first)");

@@ -9,6 +9,7 @@ namespace gn {
 
 Reach reach_of(const CpuSamples& samples, const GnLight& light, std::span<const float> visibility) {
     Reach reach;
+    const std::size_t channels = visibility.size() / std::max<std::size_t>(samples.position_ws.size(), 1);
     for (std::size_t i = 0; i < samples.position_ws.size(); ++i) {
         if (!(samples.position_ws[i].w > 0.5F)) {
             continue;
@@ -16,7 +17,9 @@ Reach reach_of(const CpuSamples& samples, const GnLight& light, std::span<const 
         ++reach.surfaces;
         if (gn_counted(light, vec3(samples.position_ws[i]), vec3(samples.normal_ws[i]))) {
             ++reach.counted;
-            reach.brightest = std::max(reach.brightest, visibility[i]);
+            for (std::size_t c = 0; c < channels; ++c) {
+                reach.brightest = std::max(reach.brightest, visibility[channels * i + c]);
+            }
         }
     }
     return reach;

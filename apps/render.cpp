@@ -7,6 +7,7 @@
 #include "apps/reach.h"
 #include "apps/terminal.h"
 #include "shadow/frame/frame.h"
+#include "shadow/metrics/metrics.h"
 #include "shadow/recipe/check_recipe.h"
 #include "shadow/shading/tonemap.h"
 #include "shadow/show/show.h"
@@ -39,15 +40,23 @@ void check_extensions(const RenderOptions& options) {
 /// One channel a light; lights that were refused are lit throughout.
 void write_visibility(const std::filesystem::path& path, const Scene& scene, const FrameResult& frame) {
     const int width = frame.picture.width, height = frame.picture.height;
-    const int lights = static_cast<int>(scene.lights.size());
-    Image layers(width, height, lights, 1.0F);
+    // A light has one layer, or three where its V has colours; what was refused is lit.
     std::vector<std::string> names;
-    for (int l = 0; l < lights; ++l) {
-        const Image& visibility = frame.visibility.at(static_cast<std::size_t>(l));
-        for (std::size_t p = 0; p < visibility.pixels(); ++p) {
-            layers.values[p * static_cast<std::size_t>(lights) + static_cast<std::size_t>(l)] = visibility.values[p];
+    std::vector<std::vector<float>> channels;
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        const Image& visibility = frame.visibility.at(l);
+        for (int c = 0; c < std::max(1, visibility.channels); ++c) {
+            const std::string name = fmt::format("V.{}.{}", l, slug(scene.lights[l].name));
+            names.push_back(visibility.channels == 3 ? name + fmt::format(".{}", "RGB"[c]) : name);
+            channels.push_back(visibility.values.empty() ? std::vector<float>{}
+                                                         : channel_of(visibility.values, visibility.channels, c));
         }
-        names.push_back(fmt::format("V.{}.{}", l, slug(scene.lights[static_cast<std::size_t>(l)].name)));
+    }
+    Image layers(width, height, static_cast<int>(channels.size()), 1.0F);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        for (std::size_t p = 0; p < channels[c].size(); ++p) {
+            layers.values[p * channels.size() + c] = channels[c][p];
+        }
     }
     write_exr(path, layers, names);
 }

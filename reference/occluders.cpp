@@ -56,6 +56,7 @@ struct Occluders::Query {
     const Blockers* blockers;
     const Seat* seat;
     const float* distance;  ///< to the light, by the ray's id
+    vec3* tint;             ///< by the ray's id
 };
 
 struct Occluders::SeatQuery {
@@ -202,10 +203,14 @@ bool Occluders::seen_from_behind(std::uint32_t triangle, dvec3 towards_light) co
     return glm::dot(normal, towards_light) < 0.0;
 }
 
-Blockers Occluders::blockers(const Light* light) const {
+Blockers Occluders::blockers(const Light* light, bool colours) const {
     Blockers found(scene_.objects.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        found[i] = casts(scene_, i, light) ? 1 : 0;
+        const CasterClass caster = caster_class(scene_, i, light);
+        found[i] = caster == CasterClass::none          ? Blocks::nothing
+                   : caster != CasterClass::translucent ? Blocks::all
+                   : colours                            ? Blocks::tinted
+                                                        : Blocks::nothing;
     }
     return found;
 }
@@ -230,10 +235,18 @@ void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
         const double at = static_cast<double>(RTCRayN_tfar(arguments->ray, arguments->N, i));
         const bool near_end = at > distance - ulps_at(hit_ulps, distance + largest(origin_ws));
         const bool rises = glm::dot(query.seat->n_ws, towards_light) > 0.0;
-        if (triangle == query.seat->triangle || (*query.blockers)[query.self->object_[triangle]] == 0 ||
-            query.self->seen_from_behind(triangle, towards_light) || query.self->transparent(triangle, u, v) ||
+        const Blocks blocks = (*query.blockers)[query.self->object_[triangle]];
+        if (triangle == query.seat->triangle || blocks == Blocks::nothing ||
+            query.self->seen_from_behind(triangle, towards_light) ||
+            (blocks == Blocks::all && query.self->transparent(triangle, u, v)) ||
             query.self->holds(triangle, query.seat->p_ws) || (rises && query.self->below(triangle, *query.seat)) ||
             (near_end && query.self->beyond(triangle, origin_ws, origin_ws + distance * towards_light))) {
+            arguments->valid[i] = 0;
+        } else if (blocks == Blocks::tinted) {
+            // The ray goes on in the surface's colour.
+            const Object& object = query.self->scene_.objects[query.self->object_[triangle]];
+            query.tint[RTCRayN_id(arguments->ray, arguments->N, i)] *=
+                transmittance(query.self->scene_.materials[static_cast<std::size_t>(object.material)]);
             arguments->valid[i] = 0;
         }
     }
@@ -306,7 +319,8 @@ Seat Occluders::seat(dvec3 p_ws, dvec3 n_ws) const {
 
 template <int Width>
 void Occluders::trace(const Seat& seat, const Blockers& blockers, const int* valid, Packet<Width>& packet) const {
-    Query query{{}, this, &blockers, &seat, packet.distance.data()};
+    packet.tint.fill(vec3(1));
+    Query query{{}, this, &blockers, &seat, packet.distance.data(), packet.tint.data()};
     rtcInitIntersectContext(&query.context);
     query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if constexpr (Width == 16) {

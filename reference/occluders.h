@@ -70,10 +70,12 @@ template <int Width>
 struct alignas(64) Packet {
     RTCRayNt<Width> rays;                 ///< each traced to a little beyond the light
     std::array<float, Width> distance{};  ///< to the light
+    std::array<vec3, Width> tint{};       ///< what the translucent surfaces on a ray's way let through; 1 where none is
 };
 
-/// Which objects block: one byte an object, 1 where it does.
-using Blockers = std::vector<std::uint8_t>;
+/// Which objects block: one byte an object.
+enum class Blocks : std::uint8_t { nothing, all, tinted };
+using Blockers = std::vector<Blocks>;
 
 class Occluders {
   public:
@@ -86,10 +88,11 @@ class Occluders {
     [[nodiscard]] int width() const { return width_; }
     /// Moves p along its normal onto the nearest triangle that faces along it, if one is within precision.
     [[nodiscard]] Seat seat(dvec3 p_ws, dvec3 n_ws) const;
-    /// What casts shadows of a light; of any light where it is null.
-    [[nodiscard]] Blockers blockers(const Light* light) const;
+    /// What casts shadows of a light; of any light where it is null. With colours translucent objects tint, else they
+    /// block nothing.
+    [[nodiscard]] Blockers blockers(const Light* light, bool colours = false) const;
     /// Nothing at all.
-    [[nodiscard]] Blockers no_blockers() const { return Blockers(scene_.objects.size(), 0); }
+    [[nodiscard]] Blockers no_blockers() const { return Blockers(scene_.objects.size(), Blocks::nothing); }
     /// Traces a packet from one seat; afterwards tfar < 0 where something blocks. Width is 1, 4, 8 or 16.
     template <int Width>
     void trace(const Seat& seat, const Blockers& blockers, const int* valid, Packet<Width>& packet) const;

@@ -43,6 +43,9 @@ struct Plan {
                 "the reference traces exactly the given points: at least one, with the picture's width, without "
                 "integral");
         }
+        if (options.channels != 1 && options.channels != 3) {
+            fail("{} channels are asked of the reference; valid is 1 or 3", options.channels);
+        }
         if (options.samples < 1 || options.samples > most_samples) {
             fail("{} samples are asked of the reference; valid is 1 to {}", options.samples, most_samples);
         }
@@ -62,8 +65,15 @@ struct Plan {
 };
 
 struct Estimate {
-    double visibility = 0, standard_error = 0, irradiance = 0;
+    dvec3 visibility{0};  ///< of red, green and blue; all alike where nothing tints
+    double standard_error = 0, irradiance = 0;
 };
+
+/// What a traced ray brings of its light.
+template <int Width>
+vec3 brought(const Packet<Width>& packet, std::size_t lane) {
+    return packet.rays.tfar[lane] < 0.0F ? vec3(0) : packet.tint[lane];
+}
 
 Estimate trace_single(const Occluders& occluders, const Blockers& blockers, const Seat& seat,
                       const LightSampler& sampler, vec3 n_ws) {
@@ -72,15 +82,15 @@ Estimate trace_single(const Occluders& occluders, const Blockers& blockers, cons
     aim(ray, 0, seat.origin_ws, point);
     const int valid = -1;
     occluders.trace(seat, blockers, &valid, ray);
-    const double visible = ray.rays.tfar[0] < 0.0F ? 0.0 : 1.0;
-    return {visible, 0.0, visible * static_cast<double>(sampler.irradiance(point, n_ws))};
+    const dvec3 visible(brought(ray, 0));
+    return {visible, 0.0, visible.g * static_cast<double>(sampler.irradiance(point, n_ws))};
 }
 
 /// The weighted mean over points that are given. What lies behind the sample's own surface is hidden by it.
 Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, const Seat& seat, vec3 n_ws,
                        const GnLight& light, const LightSamples& samples, ivec2 pixel) {
     const int count = static_cast<int>(samples.points.size());
-    double visible = 0;
+    dvec3 visible(0);
     double weights = 0;
     for (int i = 0; i < count; ++i) {
         const GnLight& one = samples.points[static_cast<std::size_t>(i)];
@@ -92,28 +102,28 @@ Estimate trace_exactly(const Occluders& occluders, const Blockers& blockers, con
             aim(ray, 0, seat.origin_ws, point);
             const int valid = -1;
             occluders.trace(seat, blockers, &valid, ray);
-            const bool seen = ray.rays.tfar[0] >= 0.0F && glm::dot(n_ws, point.direction_ws) > 0.0F;
-            visible += seen ? static_cast<double>(weight) : 0.0;
+            visible += glm::dot(n_ws, point.direction_ws) > 0.0F ? dvec3(weight * brought(ray, 0)) : dvec3(0);
             weights += static_cast<double>(weight);
         }
     }
-    return {weights > 0 ? visible / weights : 1.0, 0.0, 0.0};
+    return {weights > 0 ? visible / weights : dvec3(1), 0.0, 0.0};
 }
 
 /// The mean of the batches' means and its standard error.
-Estimate combine(std::span<const double> visible, const Plan& plan) {
+Estimate combine(std::span<const dvec3> visible, const Plan& plan) {
     Estimate estimate;
-    double squares = 0;
-    for (const double count : visible) {
-        const double mean = count / plan.per_batch;
-        estimate.visibility += mean / plan.batches;
-        squares += mean * mean / plan.batches;
+    dvec3 squares(0);
+    for (const dvec3 count : visible) {
+        const dvec3 mean = count / static_cast<double>(plan.per_batch);
+        estimate.visibility += mean / static_cast<double>(plan.batches);
+        squares += mean * mean / static_cast<double>(plan.batches);
     }
     if (plan.batches == 1) {
         estimate.standard_error = 0.5;  // one yes or no: the largest standard deviation there is
         return estimate;
     }
-    const double variance = std::max(0.0, squares - estimate.visibility * estimate.visibility);
+    const dvec3 variances = squares - estimate.visibility * estimate.visibility;
+    const double variance = std::max({0.0, variances.r, variances.g, variances.b});
     estimate.standard_error = std::sqrt(variance / (plan.batches - 1));
     return estimate;
 }
@@ -125,7 +135,7 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
     alignas(4 * Width) std::array<int, Width> valid{};
     std::array<std::uint32_t, Width> batch_of{};
     std::array<float, Width> weight{};
-    std::array<double, most_batches> visible{};
+    std::array<dvec3, most_batches> visible{};
     double irradiance = 0;
     int lane = 0;
 
@@ -137,7 +147,7 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
         for (int i = 0; i < lane; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (packet.rays.tfar[i] >= 0.0F) {
-                visible[batch_of[k]] += 1.0;
+                visible[batch_of[k]] += dvec3(packet.tint[k]);
                 irradiance += static_cast<double>(weight[k]);
             }
         }
@@ -189,7 +199,10 @@ struct Job {
         const bool receives = position_ws[i].w < 1.5F;
         const Estimate estimate = estimate_at(i, receives ? blockers : nothing, seat, sampler, n_ws);
         result.counted[i] = receives ? 1 : 0;
-        result.visibility[i] = static_cast<float>(estimate.visibility);
+        const auto channels = static_cast<std::size_t>(options.channels);
+        for (std::size_t c = 0; c < channels; ++c) {
+            result.visibility[channels * i + c] = static_cast<float>(estimate.visibility[static_cast<int>(c)]);
+        }
         result.standard_error[i] = static_cast<float>(estimate.standard_error);
         if (options.integral) {
             result.irradiance[i] = static_cast<float>(estimate.irradiance);
@@ -251,7 +264,8 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
     const auto start = std::chrono::steady_clock::now();
     const Plan plan(options);
     TruthResult result;
-    result.visibility.assign(position_ws.size(), 0.0F);
+    result.channels = options.channels;
+    result.visibility.assign(position_ws.size() * static_cast<std::size_t>(options.channels), 0.0F);
     result.standard_error.assign(position_ws.size(), 0.0F);
     result.counted.assign(position_ws.size(), 0);
     result.irradiance.assign(options.integral ? position_ws.size() : 0, 0.0F);
@@ -263,7 +277,7 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
             plan,
             options,
             result,
-            occluders.blockers(&light),
+            occluders.blockers(&light, options.channels == 3),
             occluders.no_blockers()};
     in_parallel(
         options.threads, [&](bool first) { job.work(first ? progress : std::function<void(double)>{}); },

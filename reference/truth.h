@@ -18,6 +18,7 @@ struct TruthOptions {
     int threads = 0;           ///< 0: all; changes nothing in the result
     bool (*stop)() = nullptr;  ///< asked by every thread before every view sample; true leaves the rest untraced
     bool integral = false;     ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
+    int channels = 1;          ///< 3: V of red, green and blue, which translucent surfaces on the way tint; 1: they block nothing
     /// Instead of random points of the light exactly these, for tests: V is their weighted mean, without an error of its
     /// own; points behind a sample's surface show it nothing, though it be a sheet that no ray meets again. Not together with `integral`.
     const LightSamples* exactly = nullptr;
@@ -25,8 +26,9 @@ struct TruthOptions {
 };
 
 struct TruthResult {
-    std::vector<float> visibility;      ///< per sample in [0,1]; 0 where it does not count
-    std::vector<float> standard_error;  ///< per sample, of `visibility`
+    std::vector<float> visibility;  ///< per sample its channels, in [0,1]; 0 where it does not count
+    int channels = 1;
+    std::vector<float> standard_error;  ///< per sample, of `visibility`; the largest of its channels
     /// 1 where gn_counted holds and a surface is seen that receives shadows; where it receives none, V = 1 and 0.
     std::vector<std::uint8_t> counted;
     /// With options.integral: [EASW09] eq. 1.3 without the material, lux; else empty. Range windows are left to shading.

@@ -107,6 +107,7 @@ struct FrameInput {
     std::set<std::string>* late_remarks = nullptr;
     const PreparedRecipe* prepared = nullptr;  ///< what the recipe's frames share; null where one is drawn alone
     const Light* parent = nullptr;  ///< the light that `source` is a sample of; null where it is a whole one
+    bool translucent = false;       ///< maps hold the translucent casters instead of the opaque and masked ones
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;
@@ -201,7 +202,8 @@ struct ShadowMap {
     [[nodiscard]] TextureHandle texture() const { return offers.front().texture; }
 };
 
-/// lookup or direct or visibility: V in [0,1] for every view sample, R32F; 0 where the sample does not count.
+/// lookup or direct or visibility: V in [0,1] for every view sample; 0 where the sample does not count. R32F, or RGBA32F
+/// where V has a channel for each of red, green and blue (shadow/receiver/channels.h).
 struct Visibility {
     TextureHandle image;
 };

@@ -61,14 +61,19 @@ struct SignedErrors {
     std::vector<std::uint8_t> counted;
 
     std::vector<float> add(const Image& technique, const TruthResult& truth) {
-        std::vector<float> errors(truth.visibility.size());
+        std::vector<float> errors(truth.counted.size());
         largest.resize(errors.size());
         counted.resize(errors.size());
         for (std::size_t p = 0; p < errors.size(); ++p) {
             if (truth.counted[p] == 0) {
                 continue;
             }
-            errors[p] = technique.values[p] - truth.visibility[p];
+            // Of several channels the one that is farthest off.
+            const auto channels = static_cast<std::size_t>(truth.channels);
+            for (std::size_t k = channels * p; k < channels * (p + 1); ++k) {
+                const float error = technique.values[k] - truth.visibility[k];
+                errors[p] = std::abs(error) > std::abs(errors[p]) ? error : errors[p];
+            }
             counted[p] = 1;
             largest[p] = std::abs(errors[p]) > std::abs(largest[p]) ? errors[p] : largest[p];
         }
@@ -92,21 +97,61 @@ struct PictureNames {
 
 /// Which lit but darkened samples lie beside a shadow, within the kernel's reach; nothing where no map is looked up.
 std::vector<std::uint8_t> explained_acne(ViewSession& view, Bench& bench, const Recipe& recipe, const Image& technique,
-                                         std::size_t light) {
+                                         std::size_t light, const TruthResult& truth) {
     HiddenOptions options;
     options.width = static_cast<uint>(technique.width);
     options.height = static_cast<uint>(technique.height);
     options.light = light;
     const std::vector<KernelRegion> regions =
         kernel_regions(bench.device(), view.gpu(bench), view.camera(), recipe, options);
-    const TruthResult& truth = view.truth(light);
+    const auto channels = static_cast<std::size_t>(truth.channels);
     std::vector<Surroundings> around(regions.size());
-    for (std::size_t i = 0; i < around.size(); ++i) {
-        if (truth.visibility[i] >= 1 && technique.values[i] < 1) {
-            around[i] = {regions[i].a_ws, regions[i].b_ws};
+    for (std::size_t k = 0; k < channels * around.size(); ++k) {
+        if (truth.visibility[k] >= 1 && technique.values[k] < 1) {
+            around[k / channels] = {regions[k / channels].a_ws, regions[k / channels].b_ws};
         }
     }
     return around.empty() ? std::vector<std::uint8_t>{} : view.beside_shadow(light, around);
+}
+
+/// The errors of one light: of every channel of V as if it were a light, pooled. `explained`: see explained_acne; `other`: what
+/// V is held against too, of as many channels, or empty.
+Errors errors_of(const Image& image, const CpuSamples& samples, const GnLight& shape, const TruthResult& truth,
+                 const std::vector<std::uint8_t>& explained, std::span<const float> other) {
+    const std::vector<float> lux = unshadowed_illuminance(samples, shape);
+    std::vector<Errors> channels;
+    for (int c = 0; c < image.channels; ++c) {
+        const std::vector<float> technique = channel_of(image.values, image.channels, c);
+        const std::vector<float> traced = channel_of(truth.visibility, truth.channels, c);
+        Errors& errors =
+            channels.emplace_back(visibility_errors(technique, traced, truth.counted, image.width, image.height));
+        weigh_errors(errors, technique, traced, truth.counted, lux);
+        if (!explained.empty()) {
+            split_acne(errors, technique, traced, truth.counted, explained);
+        }
+        if (!other.empty()) {
+            hold_against(errors, technique, channel_of(other, image.channels, c), truth.counted);
+        }
+    }
+    return channels.size() == 1 ? channels.front() : pool_channels(channels);
+}
+
+/// V of the recipe that all are held against, where it served the light with as many channels; else a remark why not.
+std::span<const float> other_of(RunResult& run, const FrameResult* against, std::size_t light, const std::string& name,
+                                int channels) {
+    if (against == nullptr) {
+        return {};
+    }
+    if (!against->refused[light].empty()) {
+        run.remarks.push_back(fmt::format("'against' leaves light '{}' out, which the other recipe refused: {}", name,
+                                          against->refused[light]));
+        return {};
+    }
+    if (against->visibility[light].channels != channels) {
+        run.remarks.push_back(fmt::format("'against' leaves light '{}' out: one recipe's V has colours", name));
+        return {};
+    }
+    return against->visibility[light].values;
 }
 
 /// Errors and error map of every light that is asked for; returns which of the scene's lights were served.
@@ -125,7 +170,7 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             light.status = "refused";
             light.reason = frame.refused[l];
         } else {
-            const TruthResult& truth = view.truth(l);
+            const TruthResult& truth = view.truth(l, frame.visibility[l].channels);
             const Reach reach = reach_of(view.samples(), view.scene().lights[l].shape, truth.visibility);
             light.reason = empty_reason(reach, light.name, view.camera().name);
             light.status = light.reason.empty() ? "ok" : "empty";
@@ -133,19 +178,9 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
                 run.remarks.push_back(remark);
             }
             light.errors =
-                visibility_errors(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);
-            weigh_errors(light.errors, frame.visibility[l].values, truth.visibility, truth.counted,
-                         unshadowed_illuminance(view.samples(), view.scene().lights[l].shape));
-            const std::vector<std::uint8_t> explained = explained_acne(view, bench, recipe, frame.visibility[l], l);
-            if (!explained.empty()) {
-                split_acne(light.errors, frame.visibility[l].values, truth.visibility, truth.counted, explained);
-            }
-            if (against != nullptr && against->refused[l].empty()) {
-                hold_against(light.errors, frame.visibility[l].values, against->visibility[l].values, truth.counted);
-            } else if (against != nullptr) {
-                run.remarks.push_back(fmt::format("'against' leaves light '{}' out, which the other recipe refused: {}",
-                                                  light.name, against->refused[l]));
-            }
+                errors_of(frame.visibility[l], view.samples(), view.scene().lights[l].shape, truth,
+                          explained_acne(view, bench, recipe, frame.visibility[l], l, truth),
+                          other_of(run, against, l, light.name, frame.visibility[l].channels));
             errors.push_back(light.errors);
             served[l] = true;
             const std::vector<float> map = combined.add(frame.visibility[l], truth);
@@ -170,7 +205,11 @@ void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const Fra
     const bool all = std::none_of(run.lights.begin(), run.lights.end(),
                                   [](const LightResult& light) { return light.status == "refused"; });
     const Image technique = tonemap(frame.picture, view.exposure());
-    const Image reference = all ? view.reference_picture() : view.picture_of(bench, view.reference_visibility(served));
+    const bool colours = std::any_of(frame.visibility.begin(), frame.visibility.end(),
+                                     [](const Image& visibility) { return visibility.channels == 3; });
+    const Image reference = all && !colours
+                                ? view.reference_picture()
+                                : view.picture_of(bench, view.reference_visibility(served, colours));
     run.errors.luma_rms = luma_rms(technique, reference);
     run.errors.flip = flip(technique, reference);
     run.picture = names.write("picture", technique);

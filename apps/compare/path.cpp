@@ -36,7 +36,8 @@ PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_
     PathFrame kept{std::move(frame.samples), {}};
     for (std::size_t l = 0; l < frame.visibility.size(); ++l) {
         kept.errors.emplace_back();
-        if (view.wanted(l) && frame.refused[l].empty()) {
+        // The truth along a path knows no colours.
+        if (view.wanted(l) && frame.refused[l].empty() && frame.visibility[l].channels == 1) {
             const PathTruth& truth = view.path_truth(index, l);
             kept.errors.back() =
                 signed_error(frame.visibility[l].values, truth.visibility, truth.counted, run.width, run.height);

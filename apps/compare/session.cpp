@@ -26,6 +26,7 @@ LightInfo describe(const Light& light) {
 
 Image as_image(const std::vector<float>& values, const Size& size) {
     Image image(size.width, size.height, 1);
+    image.channels = static_cast<int>(values.size() / image.pixels());
     image.values = values;
     return image;
 }
@@ -129,6 +130,26 @@ TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& sa
     return std::move(*truth);
 }
 
+const TruthResult& ViewSession::truth(std::size_t light, int channels) {
+    if (channels == 1) {
+        return truth(light);
+    }
+    colour_truth_.resize(truth_.size());
+    std::optional<TruthResult>& kept = colour_truth_.at(light);
+    if (!kept) {
+        kept = tracer().trace(samples_.position_ws, samples_.normal_ws, scene_->lights[light],
+                              {.samples = options_.samples,
+                               .threads = options_.threads,
+                               .stop = stop_requested,
+                               .channels = channels});
+        if (!kept->complete) {
+            kept.reset();
+            throw Stopped();
+        }
+    }
+    return *kept;
+}
+
 void ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
     const auto count = static_cast<double>(result.lights.size());
     double done = 0;
@@ -186,10 +207,12 @@ void ViewSession::account(const ResultCache& cache, Bench& bench) {
     cache.store(key_, reference);
 }
 
-std::vector<Image> ViewSession::reference_visibility(const std::vector<bool>& served) const {
+std::vector<Image> ViewSession::reference_visibility(const std::vector<bool>& served, bool colours) const {
     std::vector<Image> images;
     for (std::size_t l = 0; l < truth_.size(); ++l) {
-        images.push_back(served[l] && truth_[l] ? as_image(truth_[l]->visibility, options_.size) : Image{});
+        const bool coloured = colours && l < colour_truth_.size() && colour_truth_[l];
+        const std::optional<TruthResult>& truth = coloured ? colour_truth_[l] : truth_[l];
+        images.push_back(served[l] && truth ? as_image(truth->visibility, options_.size) : Image{});
     }
     return images;
 }

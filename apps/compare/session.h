@@ -51,8 +51,9 @@ class ViewSession {
 
     /// The radiance of given visibilities, one a light (empty: V = 1), as a display-ready picture.
     Image picture_of(Bench& bench, std::span<const Image> visibility);
-    /// The traced visibilities; lights that are left out of `served` are empty.
-    [[nodiscard]] std::vector<Image> reference_visibility(const std::vector<bool>& served) const;
+    /// The traced visibilities, in colour where that was asked for by truth(light, 3) and is here; lights that are left out
+    /// of `served` are empty.
+    [[nodiscard]] std::vector<Image> reference_visibility(const std::vector<bool>& served, bool colours = false) const;
 
     /// The frame of the recipe that others are held against, or null when there is none. Drawn when first asked for.
     /// Throws Error.
@@ -65,6 +66,8 @@ class ViewSession {
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const TruthResult& truth(std::size_t light) const { return *truth_.at(light); }
+    /// The same with 1 or 3 channels; three are traced when they are first asked for. Throws Stopped.
+    const TruthResult& truth(std::size_t light, int channels);
     [[nodiscard]] const CpuSamples& samples() const { return samples_; }
     [[nodiscard]] const CameraPath* path() const { return path_; }  ///< null where none is followed
     [[nodiscard]] const PathTruth& path_truth(std::size_t frame, std::size_t light) const {
@@ -98,7 +101,7 @@ class ViewSession {
     std::optional<SceneGpu> gpu_;
     CpuSamples samples_;
     std::optional<Truth> tracer_;
-    std::vector<std::optional<TruthResult>> truth_;
+    std::vector<std::optional<TruthResult>> truth_, colour_truth_;
     const CameraPath* path_ = nullptr;
     std::vector<std::vector<PathTruth>> path_truth_;  ///< per frame and light
     double path_seconds_ = 0;

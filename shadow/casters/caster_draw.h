@@ -26,6 +26,7 @@ struct CasterJob {
     BufferHandle tile_draws;           ///< add_tile_draws, with tiles
     std::vector<TextureHandle> masks;  ///< base colour textures of alpha-tested materials
     std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders
+    bool translucent = false;          ///< the translucent casters alone, whole, instead of the others
 };
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass);

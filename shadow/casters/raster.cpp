@@ -67,7 +67,7 @@ void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const
 }
 
 void CasterDraw::opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
-    if (job->pass.by_object || job->views.tiles) {
+    if (job->pass.by_object || job->translucent || job->views.tiles) {
         opaque_one_by_one(r, faces, objects);
         return;
     }
@@ -91,7 +91,7 @@ void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
     begin(r, faces, false);
     for (const std::uint32_t index : objects) {
         const Object& object = job->scene->objects[index];
-        if (!is_masked(*job->scene, object)) {
+        if (job->translucent || !is_masked(*job->scene, object)) {
             r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index)});
             draw_object(r, index);
         }
@@ -100,7 +100,7 @@ void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
 
 void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const {
     const std::vector<std::uint32_t> masked = masked_objects(*job->scene, objects);
-    if (masked.empty()) {
+    if (masked.empty() || job->translucent) {
         return;
     }
     begin(r, faces, true);
@@ -127,6 +127,9 @@ void CasterDraw::draw_object(Recorder& r, std::uint32_t index) const {
 }
 
 std::vector<std::uint32_t> CasterDraw::objects() const {
+    if (job->translucent) {
+        return translucent_casters(*job->scene, *job->light);
+    }
     if (job->views.casters.empty()) {
         return casters(*job->scene, *job->light);
     }
@@ -221,11 +224,12 @@ std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recip
     hasher.text(pass.name).text(pass.fragment.includes).text(pass.fragment.body);
     pass.fragment.inputs.hash(hasher);
     job->shader_key = hasher.finish().low;
+    job->translucent = input.translucent;
     return job;
 }
 
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {
-    if (can_keep(input, views, pass)) {
+    if (!input.translucent && can_keep(input, views, pass)) {
         add_kept_passes(input, recipe, views, pass);
         return;
     }

@@ -7,6 +7,7 @@
 #include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
 #include "shadow/recipe/check_recipe.h"
+#include "shadow/scene/casting.h"
 #include "shadow/view/read_back.h"
 #include "shadow/visibility/combine.h"
 
@@ -25,17 +26,28 @@ Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
                                                 : add_resolve(input, recipe, views, map);
 }
 
+/// The same for opaque casters and, where there are any, for translucent ones: the product.
+Visibility add_both_maps(const FrameInput& input, const Recipe& recipe) {
+    const Visibility solid = add_mapped(input, recipe);
+    if (recipe.translucent_map == nullptr || translucent_casters(input.scene, input.light()).empty()) {
+        return solid;
+    }
+    FrameInput glass = input;
+    glass.translucent = true;
+    return add_combined(input, solid, add_mapped(glass, recipe.of_translucent()), Combine::product);
+}
+
 /// Map, direct part, or both as one.
 Visibility add_one_light(const FrameInput& input, const Recipe& recipe) {
     if (recipe.lookup == nullptr && recipe.direct == nullptr) {
         return add_no_shadow(input);
     }
     if (recipe.direct == nullptr) {
-        return add_mapped(input, recipe);
+        return add_both_maps(input, recipe);
     }
     const Visibility direct = recipe.direct->add_direct(input, recipe);
     return recipe.lookup == nullptr ? direct
-                                    : add_combined(input, add_mapped(input, recipe), direct, recipe.combine.value());
+                                    : add_combined(input, add_both_maps(input, recipe), direct, recipe.combine.value());
 }
 
 }  // namespace

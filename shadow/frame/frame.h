@@ -62,7 +62,7 @@ ViewSamples lent_samples(const FrameGraph& graph, const Camera& camera, TextureH
 /// What a rendered frame leaves: pictures on the CPU and the graph's accounts.
 struct FrameResult {
     CpuSamples samples;                ///< empty where the options ask for none
-    std::vector<Image> visibility;     ///< one a light, one channel, in [0,1]; empty Image for lights not asked for
+    std::vector<Image> visibility;     ///< one a light, 1 or 3 channels, in [0,1]; empty Image for lights not asked for
     std::vector<std::string> refused;  ///< one a light: the sentence why, or ""
     std::vector<std::string> remarks;  ///< limits of the recipe's parts that show in this scene, one sentence each
     Image picture;                     ///< linear RGB radiance, cd/m^2
@@ -100,8 +100,8 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
                              const Camera& camera, uint width, uint height);
 /// placement -> map -> lookup, direct, or both, for the light or each that serves it, then visibility. Throws Refusal.
 Visibility add_shadow(const FrameInput& input, const Recipe& recipe);
-/// An R32F image of the view's size.
-TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples);
+/// An image of V of the view's size, with 1 or 3 channels.
+TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples, uint channels = 1);
 /// The shared resolve pass: every view sample through the placement's choice and the lookup's function.
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map);
 /// Light x V, summed over the lights, as RGBA32F radiance. An invalid handle means V = 1.

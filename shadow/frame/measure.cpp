@@ -3,6 +3,7 @@
 #include "shadow/frame/frame.h"
 #include "shadow/frame/history.h"
 #include "shadow/frame/map_memory.h"
+#include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/recipe/check_recipe.h"
 #include "shadow/view/read_back.h"
@@ -44,6 +45,11 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
             add_shading({graph.device(), graph, *scene.scene, casters.handles, frame.samples}, frame.visibility);
     }
     return frame;
+}
+
+/// V as it is: of one channel, or of three.
+Image read_channels(FrameGraph& graph, TextureHandle image) {
+    return channels_of(graph, image) == 1 ? read_image(graph, image) : without_alpha(read_image(graph, image));
 }
 
 /// Keeps what will be read back.
@@ -127,7 +133,7 @@ FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, 
         result.samples = read_samples(graph, frame.samples);
     }
     for (const TextureHandle image : frame.visibility) {
-        result.visibility.push_back(image.valid() && options.visibility ? read_image(graph, image) : Image{});
+        result.visibility.push_back(image.valid() && options.visibility ? read_channels(graph, image) : Image{});
         report_marked(device, result.visibility.back(), recipe_text(recipe), result.visibility.size() - 1);
     }
     if (frame.picture.valid()) {
@@ -162,13 +168,14 @@ Image shade(Device& device, SceneGpu& scene, const Camera& camera, uint width, u
         if (visibility[i].values.empty()) {
             continue;
         }
+        const Image texels = visibility[i].channels == 1 ? visibility[i] : with_alpha(visibility[i]);
         textures.push_back(upload_texture(device,
                                           {.name = "given visibility",
-                                           .format = VK_FORMAT_R32_SFLOAT,
+                                           .format = visibility_format(visibility[i].channels == 1 ? 1 : 3),
                                            .width = width,
                                            .height = height,
                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT},
-                                          std::as_bytes(std::span(visibility[i].values))));
+                                          std::as_bytes(std::span(texels.values))));
         given[i] = graph.import(textures.back());
     }
     const FrameInput input{device, graph, *scene.scene, handles, samples};

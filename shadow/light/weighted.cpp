@@ -4,6 +4,7 @@
 #include "shadow/light/weighted.h"
 
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/sample_pass.h"
 
@@ -25,18 +26,30 @@ void main() {
 // Adds w V and w of one light to the sums.
 constexpr const char* add_text = R"(
     float weight = counted ? GN_WEIGHT(u.light, u.one, position.xyz, pixel, u.index, u.count) : 0.0;
-    float v = dot(n_ws, gn_to_light(u.one, position.xyz)) > 0.0 ? texelFetch(visibility, pixel, 0).r : 0.0;
-    vec2 before = u.index > 0 ? imageLoad(sums, pixel).xy : vec2(0.0);
-    imageStore(sums, pixel, vec4(before + (weight > 0.0 ? weight * vec2(v, 1.0) : vec2(0.0)), 0.0, 0.0));
+    bool above = dot(n_ws, gn_to_light(u.one, position.xyz)) > 0.0;
+    GN_V v = above ? GN_V_OF(texelFetch(visibility, pixel, 0)) : GN_V(0.0);
+    vec4 before = u.index > 0 ? imageLoad(sums, pixel) : vec4(0.0);
+    imageStore(sums, pixel, before + (weight > 0.0 ? weight * GN_SUM(v) : vec4(0.0)));
 }
 )";
 
 constexpr const char* mean_text = R"(
-    vec2 sum = imageLoad(sums, pixel).xy;
-    float v = sum.y > 0.0 ? sum.x / sum.y : 1.0;
-    imageStore(visibility, pixel, vec4(counted ? gn_unit(v) : 0.0));
+    vec4 sum = imageLoad(sums, pixel);
+    GN_V v = GN_SUM_WEIGHT(sum) > 0.0 ? GN_V_OF(sum) / GN_SUM_WEIGHT(sum) : GN_V(1.0);
+    imageStore(visibility, pixel, counted ? GN_V_TEXEL(gn_unit(v)) : vec4(0.0));
 }
 )";
+
+/// Sums hold w V and, behind it, w.
+VkFormat sums_format(uint channels) {
+    return channels == 1 ? VK_FORMAT_R32G32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+std::string sums_text(uint channels) {
+    return channels_text(channels) +
+           (channels == 1 ? "#define GN_SUM(v) vec4(v, 1.0, 0.0, 0.0)\n#define GN_SUM_WEIGHT(sum) (sum).g\n"
+                          : "#define GN_SUM(v) vec4(v, 1.0)\n#define GN_SUM_WEIGHT(sum) (sum).a\n");
+}
 
 /// A pass over the view samples; its shader has u.view, u.light and what `inputs` adds.
 void add_pass(const FrameInput& input, const char* name, const std::string& prologue, ShaderInputs inputs,
@@ -62,20 +75,19 @@ ShaderInputs inputs_of(const FrameInput& input) {
     return inputs;
 }
 
-void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility,
-             TextureHandle sums) {
+void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility, TextureHandle sums) {
     const Part& part = *recipe.light;
     ShaderInputs inputs = inputs_of(one);
-    inputs.constant("GnLight", "one", one.light().shape)
-        .constant("int", "index", index)
-        .constant("int", "count", count);
+    inputs.constant("GnLight", "one", one.light().shape).constant("int", "index", index).constant("int", "count", count);
     inputs.constant_bytes(part.params_type, "params", recipe.block(part).bytes());
     inputs.texture("sampler2D", "visibility", visibility);
-    inputs.image("rg32f", "", "image2D", "sums", sums);
+    const uint channels = channels_of(one.graph, visibility);
+    inputs.image(image_format(sums_format(channels)), "", "image2D", "sums", sums);
     add_pass(one, "light: add",
-             include_line(part.glsl) + fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
-                                                   "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
-                                                   identifier(part.id)),
+             sums_text(channels) + include_line(part.glsl) +
+                 fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
+                             "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
+                             identifier(part.id)),
              std::move(inputs), add_text);
 }
 
@@ -86,12 +98,10 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
     FrameGraph& graph = input.graph;
     const auto lights = std::make_shared<const std::vector<Light>>(recipe.light->split(input.light(), recipe));
     GN_CHECK(!lights->empty());
-    const TextureHandle sums = graph.create({.name = "light sums",
-                                             .format = VK_FORMAT_R32G32_SFLOAT,
-                                             .width = input.samples.width,
-                                             .height = input.samples.height});
 
     // Serve light after light, each with what the one before has done with.
+    TextureHandle sums;
+    uint channels = 1;
     graph.begin_rounds();
     for (std::size_t i = 0; i < lights->size(); ++i) {
         graph.next_round();
@@ -99,17 +109,25 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
         one.source = &lights->at(i);
         one.parent = &input.light();
         one.history = nullptr;
-        add_one(one, recipe, static_cast<int>(i), static_cast<int>(lights->size()), serve(one).image, sums);
+        const Visibility served = serve(one);
+        if (!sums.valid()) {
+            channels = channels_of(graph, served.image);
+            sums = graph.create({.name = "light sums",
+                                 .format = sums_format(channels),
+                                 .width = input.samples.width,
+                                 .height = input.samples.height});
+        }
+        add_one(one, recipe, static_cast<int>(i), static_cast<int>(lights->size()), served.image, sums);
     }
     graph.end_rounds();
 
     // Passes point to the lights: they live as long as the graph.
     graph.own(lights);
-    const Visibility result{create_visibility(graph, input.samples)};
+    const Visibility result{create_visibility(graph, input.samples, channels)};
     ShaderInputs inputs = inputs_of(input);
-    inputs.image("rg32f", "readonly", "image2D", "sums", sums);
-    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
-    add_pass(input, "light: mean", "", std::move(inputs), mean_text);
+    inputs.image(image_format(sums_format(channels)), "readonly", "image2D", "sums", sums);
+    inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
+    add_pass(input, "light: mean", sums_text(channels), std::move(inputs), mean_text);
     return result;
 }
 

@@ -2,6 +2,7 @@
 // The resolve pass: every view sample through the placement's choice, the bias and the lookup's function. Its shader is
 // composed of includes; no combination of parts is ever written down.
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -13,9 +14,9 @@ constexpr const char* main_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push { ivec2 first_pixel; };
 
-float visibility_in(GnReceiver receiver, int index) {
+GN_V visibility_in(GnReceiver receiver, int index) {
     GnLookup at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);
-    return at.projected.inside ? gn_unit(GN_LOOKUP(at)) : 1.0;
+    return at.projected.inside ? gn_unit(GN_V(GN_LOOKUP(at))) : GN_V(1.0);
 }
 
 void main() {
@@ -23,7 +24,7 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
         return;
     }
-    float v = 0.0;
+    GN_V v = GN_V(0.0);
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
 #ifdef GN_CASTER_IDS
@@ -36,7 +37,7 @@ void main() {
             v = mix(v, visibility_in(receiver, choice.second), choice.weight);
         }
     }
-    imageStore(visibility, pixel, vec4(v));
+    imageStore(visibility, pixel, GN_V_TEXEL(v));
 }
 )";
 
@@ -113,7 +114,7 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
                            const ShaderInputs& inputs) {
     const Part& placement = *views.part;
     const Part& lookup = *recipe.lookup;
-    std::string text = expect_text(input.device) + receiver_defines(recipe, views) +
+    std::string text = expect_text(input.device) + channels_text(lookup.channels) + receiver_defines(recipe, views) +
                        (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "") + crossing_defines(views) +
                        fmt::format("#define GN_TWO_VIEWS {}\n", views.views.size() > 1);
     text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
@@ -140,13 +141,16 @@ std::uint64_t shader_key(const Recipe& recipe, const LightViews& views, const Sh
 
 }  // namespace
 
-TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples) {
-    return graph.create(
-        {.name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
+TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples, uint channels) {
+    return graph.create({.name = "visibility",
+                         .format = visibility_format(channels),
+                         .width = samples.width,
+                         .height = samples.height});
 }
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
-    const Visibility result{create_visibility(input.graph, input.samples)};
+    const uint channels = recipe.lookup->channels;
+    const Visibility result{create_visibility(input.graph, input.samples, channels)};
     const ivec4 lit = lit_pixels(input);
 
     // No sample counts beyond the pixels that the light can reach, which may be all of them in one frame and few in the next.
@@ -155,7 +159,7 @@ Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const Ligh
             "lookup: dark", [&](PassBuilder& pass) { pass.color(result.image, Load::clear); }, [](Recorder&) {});
     }
     ShaderInputs inputs = inputs_of(input, recipe, views, map);
-    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
+    inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
     const auto shader = made_once(input.prepared, "resolve", shader_key(recipe, views, inputs),
                                   [&] { return sealed(resolve_shader(input, recipe, views, map, inputs)); });
     input.graph.add_pass(

@@ -235,6 +235,30 @@ void hold_against(Errors& errors, std::span<const float> technique, std::span<co
     errors.against_mean = all.over_count(signed_sum);
 }
 
+std::vector<float> channel_of(std::span<const float> interleaved, int channels, int channel) {
+    GN_CHECK(channels > 0 && channel >= 0 && channel < channels);
+    const auto step = static_cast<std::size_t>(channels);
+    std::vector<float> values(interleaved.size() / step);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = interleaved[step * i + static_cast<std::size_t>(channel)];
+    }
+    return values;
+}
+
+Errors pool_channels(std::span<const Errors> channels) {
+    GN_CHECK(!channels.empty());
+    Errors pooled = pool(channels);
+    pooled.samples /= channels.size();
+    pooled.dark /= channels.size();
+    pooled.lit /= channels.size();
+    pooled.partial /= channels.size();
+    for (double WeightedErrors::*weight :
+         {&WeightedErrors::all, &WeightedErrors::dark, &WeightedErrors::lit, &WeightedErrors::partial}) {
+        pooled.weighted.*weight /= static_cast<double>(channels.size());
+    }
+    return pooled;
+}
+
 Errors pool(std::span<const Errors> lights) {
     Errors pooled;
     for (const Errors& light : lights) {

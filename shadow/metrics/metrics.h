@@ -61,6 +61,10 @@ std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::spa
 /// same counted samples. What is not a number in either of them counts as a difference of 1.
 void hold_against(Errors& errors, std::span<const float> technique, std::span<const float> other,
                   std::span<const std::uint8_t> counted);
+/// One channel of values that are interleaved, a value a sample.
+std::vector<float> channel_of(std::span<const float> interleaved, int channels, int channel);
+/// The errors of a light's channels as those of the light: each channel's samples count alike, and each sample once.
+Errors pool_channels(std::span<const Errors> channels);
 /// Several lights pooled: as if their samples were one list. Figures of pictures and paths are not samples of a light and
 /// stay absent.
 Errors pool(std::span<const Errors> lights);

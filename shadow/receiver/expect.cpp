@@ -19,6 +19,7 @@ float gn_unit(float v) {
     GN_EXPECT(gn_in_unit(v));
     return gn_broken ? -1.0e9 : clamp(v, 0.0, 1.0);
 }
+vec3 gn_unit(vec3 v) { return vec3(gn_unit(v.r), gn_unit(v.g), gn_unit(v.b)); }
 )";
 }
 
@@ -32,7 +33,7 @@ void report_marked(Device& device, const Image& visibility, const std::string& r
     if (first == values.end()) {
         return;
     }
-    const auto at = first - values.begin();
+    const auto at = (first - values.begin()) / visibility.channels;
     device.report(fmt::format(
         "visibility of light {} by {}: {} of {} samples are outside [0, 1] or not a number before they are clamped, "
         "the first at pixel {}, {}",

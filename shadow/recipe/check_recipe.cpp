@@ -119,6 +119,10 @@ void check_complete(const Recipe& recipe) {
         fail("recipe {}: map '{}' is read by no lookup; lookups that read it: {}", recipe.name, recipe.map->id,
              lookups_for(*recipe.map));
     }
+    if ((recipe.translucent_map == nullptr) != (recipe.translucent_lookup == nullptr)) {
+        fail("recipe {}: translucent casters need a map and a lookup, and only translucent.{} is named", recipe.name,
+             recipe.translucent_map != nullptr ? "map" : "lookup");
+    }
     const Part* idle = recipe.light != nullptr      ? recipe.light
                        : !recipe.visibility.empty() ? recipe.visibility.front()
                                                     : nullptr;
@@ -181,6 +185,16 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
             refuse("{}", sentence);
         }
         check_part(recipe.placement_for(light.shape), recipe, scene, light, device);
+    }
+    if (recipe.translucent_map != nullptr && recipe.translucent_map->solid_only) {
+        refuse("translucent.map = {}: map '{}' holds opaque casters only; maps that hold translucent ones: {}",
+               recipe.translucent_map->id, recipe.translucent_map->id,
+               ids_of(Stage::map, [](const Part& part) { return !part.solid_only; }));
+    }
+    if (const std::string sentence =
+            recipe.translucent_map != nullptr ? stages_misfit(recipe.of_translucent()) : std::string();
+        !sentence.empty()) {
+        refuse("{}", sentence);
     }
     if (const std::string sentence = casters_misfit(recipe, scene); !sentence.empty()) {
         refuse("{}", sentence);

@@ -11,6 +11,7 @@ bool LightKinds::has(uint kind) const {
         case GN_LIGHT_SPOT: return spot;
         case GN_LIGHT_POINT: return point;
         case GN_LIGHT_RECTANGLE: return rectangle;
+        case GN_LIGHT_ENVIRONMENT: return environment;
         default: return false;
     }
 }

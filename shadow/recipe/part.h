@@ -15,10 +15,11 @@ struct Recipe;
 
 /// Which lights a part serves.
 struct LightKinds {
-    bool directional = false, spot = false, point = false, rectangle = false;
+    bool directional = false, spot = false, point = false, rectangle = false, environment = false;
     [[nodiscard]] bool has(uint kind) const;
     [[nodiscard]] std::string names() const;
 };
+/// All that have a place or a direction.
 inline constexpr LightKinds all_lights{true, true, true, true};
 
 // The GLSL functions that the shared resolve pass calls, by stage; <id> with '-' as '_', the params argument only where
@@ -27,7 +28,7 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //   light       float gn_<id>_weight(GnLight light, GnLight one, vec3 p_ws, ivec2 pixel, int index, int count, Params):
 //               what V of light `index` of `count`, `one`, weighs at a receiver; at least 0
 //   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
-//   lookup      float gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
+//   lookup      float (vec3 where `channels` is 3) gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
 //               Params), for maps that give "filterable"; the lookup `filtered` calls it as
 //               GN_MAP_VISIBILITY(GnLookup, ddx_ts, ddy_ts)
@@ -55,6 +56,8 @@ class Part {
     bool bends = false;                        ///< placement: straight edges are not straight on its maps
     std::vector<std::string_view> view_names;  ///< placement: what its views are called, in order; empty: by number
     bool separates_casters = false;            ///< map: serves casters = midpoint, dual, ids
+    bool solid_only = false;                   ///< map: cannot hold translucent casters
+    uint channels = 1;                         ///< lookup: of the V that it gives, 1 or 3
     std::vector<std::string_view> reads;       ///< direct: keys of maps that it reads too ("placement", "resolution")
     LightKinds lights = all_lights;
     std::vector<Feature> features;  ///< without which the part is refused

@@ -192,13 +192,22 @@ const ParamBlock& Recipe::block(const Part& part) const {
 
 std::vector<const Part*> Recipe::parts() const {
     std::vector<const Part*> named;
-    for (const Part* part : {light, placement, map, lookup, direct}) {
-        if (part != nullptr) {
+    for (const Part* part : {light, placement, map, translucent_map, lookup, translucent_lookup, direct}) {
+        // One part may serve both classes of casters.
+        if (part != nullptr && std::find(named.begin(), named.end(), part) == named.end()) {
             named.push_back(part);
         }
     }
     named.insert(named.end(), visibility.begin(), visibility.end());
     return named;
+}
+
+Recipe Recipe::of_translucent() const {
+    Recipe recipe = *this;
+    recipe.map = translucent_map;
+    recipe.lookup = translucent_lookup;
+    recipe.casters = Casters::all;
+    return recipe;
 }
 
 const Part& Recipe::placement_for(const GnLight& shape) const {

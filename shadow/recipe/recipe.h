@@ -31,6 +31,9 @@ struct Recipe {
         nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
     const Part* map = nullptr;
     const Part* lookup = nullptr;
+    /// Where both are set translucent casters have a map of their own, and V is the product of both lookups' V.
+    const Part* translucent_map = nullptr;
+    const Part* translucent_lookup = nullptr;
     const Part* direct = nullptr;         ///< instead of a map, or beside it; without both V = 1
     std::optional<Combine> combine;       ///< set where a direct part stands beside a map, and only there
     std::vector<const Part*> visibility;  ///< in the order in which they run; may be empty
@@ -47,6 +50,8 @@ struct Recipe {
         return found->second.template as<Params>();
     }
     [[nodiscard]] const ParamBlock& block(const Part& part) const;
+    /// The recipe of its translucent casters' map.
+    [[nodiscard]] Recipe of_translucent() const;
     /// The parts that it names, in the flow's order. A placement left to the lights is none of them.
     [[nodiscard]] std::vector<const Part*> parts() const;
     /// The placement for a light: as named where that serves such lights, else cube for point lights and fit for all others.

@@ -47,6 +47,9 @@ bool is_map_key(std::string_view key) {
 
 bool usable(const Recipe& recipe, std::span<const Part* const> parts, const RecipeKey& key) {
     const std::string& first = key.group.empty() ? key.name : key.group;
+    if (key.group == "translucent") {
+        return recipe.map != nullptr;
+    }
     if (is_map_key(first)) {
         return reads(recipe, first);
     }

@@ -149,6 +149,7 @@ bool set_top_level(Recipe& recipe, std::string_view key, std::string_view value,
 
 void fail_unknown_key(const Recipe& recipe, std::string_view key, const std::string& where) {
     std::vector<std::string_view> known(top_level_keys.begin(), top_level_keys.end());
+    known.push_back("translucent");
     for (const auto& [id, block] : recipe.params) {
         if (block.table() != nullptr && !block.table()->rows.empty()) {
             known.push_back(id);
@@ -162,6 +163,14 @@ void set_group(Recipe& recipe, std::string_view group, std::string_view name, st
     const std::string place = fmt::format("{}: {}.{}", where, group, name);
     if (group == "bias") {
         return set_bias(recipe.bias, name, value, place);
+    }
+    if (group == "translucent" && name == "map") {
+        recipe.translucent_map = named_part(Stage::map, value, "none", place);
+        return;
+    }
+    if (group == "translucent" && name == "lookup") {
+        recipe.translucent_lookup = named_part(Stage::lookup, value, "none", place);
+        return;
     }
     for (auto& [id, block] : recipe.params) {
         if (identifier(id) == identifier(group)) {

@@ -10,10 +10,28 @@
 
 namespace gn {
 
-bool casts(const Scene& scene, std::size_t object, const Light* light) {
+CasterClass caster_class(const Scene& scene, std::size_t object, const Light* light) {
     const Object& asked = scene.objects[object];
-    return asked.casts.value_or(scene.materials[static_cast<std::size_t>(asked.material)].casts) &&
-           (light == nullptr || !std::binary_search(light->spared.begin(), light->spared.end(), object));
+    const Material& material = scene.materials[static_cast<std::size_t>(asked.material)];
+    const bool spared = light != nullptr && std::binary_search(light->spared.begin(), light->spared.end(), object);
+    if (spared || !asked.casts.value_or(true)) {
+        return CasterClass::none;
+    }
+    // Glass that was told to cast is taken for solid.
+    if (!asked.casts && !material.casts) {
+        return lets_light_through(scene, material) ? CasterClass::translucent : CasterClass::none;
+    }
+    return material.alpha_mode == AlphaMode::opaque ? CasterClass::opaque : CasterClass::masked;
+}
+
+bool casts(const Scene& scene, std::size_t object, const Light* light) {
+    const CasterClass found = caster_class(scene, object, light);
+    return found == CasterClass::opaque || found == CasterClass::masked;
+}
+
+vec3 transmittance(const Material& material) {
+    return material.transmission > 0.0F ? glm::clamp(vec3(material.base_color), 0.0F, 1.0F) * material.transmission
+                                        : vec3(1.0F - std::clamp(material.base_color.a, 0.0F, 1.0F));
 }
 
 std::vector<std::uint32_t> casters(const Scene& scene, const Light& light) {
@@ -21,6 +39,16 @@ std::vector<std::uint32_t> casters(const Scene& scene, const Light& light) {
     found.reserve(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         if (casts(scene, i, &light)) {
+            found.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    return found;
+}
+
+std::vector<std::uint32_t> translucent_casters(const Scene& scene, const Light& light) {
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (caster_class(scene, i, &light) == CasterClass::translucent) {
             found.push_back(static_cast<std::uint32_t>(i));
         }
     }

@@ -2,7 +2,8 @@
 // A light as C++ and GLSL see it, and which view samples count for it.
 //
 // Units: directional intensity in lux, spot and point in candela, rectangle in candela per square metre. Sizes in
-// metres, angles in radians. A rectangle emits towards +direction_ws only.
+// metres, angles in radians. A rectangle emits towards +direction_ws only. An environment shines from everywhere, in lux on a
+// surface that all of it reaches; its colours stand in GnSky.
 #ifndef GN_SHADOW_SCENE_LIGHT_H
 #define GN_SHADOW_SCENE_LIGHT_H
 
@@ -12,6 +13,7 @@
 #define GN_LIGHT_SPOT 1
 #define GN_LIGHT_POINT 2
 #define GN_LIGHT_RECTANGLE 3
+#define GN_LIGHT_ENVIRONMENT 4
 
 struct GnLight {
     vec4 position_ws GN_DEFAULT(vec4(0));             ///< xyz; the centre of the emitting shape (unused if directional)
@@ -30,6 +32,15 @@ struct GnLight {
     float unused0 GN_DEFAULT(0.0f);
     float unused1 GN_DEFAULT(0.0f);
     float unused2 GN_DEFAULT(0.0f);
+};
+
+/// What an environment looks like, relative to its intensity: the light that surfaces get, and the sky that is seen.
+struct GnSky {
+    vec4 above GN_DEFAULT(vec4(0.85f, 0.95f, 1.1f, 0));    ///< rgb on a surface that faces up: a pale sky
+    vec4 below GN_DEFAULT(vec4(0.5f, 0.48f, 0.45f, 0));    ///< rgb on a surface that faces down: half of it, from the ground
+    vec4 zenith GN_DEFAULT(vec4(0.55f, 0.75f, 1.1f, 0));   ///< rgb at the top of the picture, where no surface is seen
+    vec4 horizon GN_DEFAULT(vec4(1.0f, 0.98f, 0.94f, 0));  ///< rgb at the bottom
+    float seen GN_DEFAULT(1.5f);                           ///< how much brighter the sky itself is than the light from it
 };
 
 #ifdef __cplusplus

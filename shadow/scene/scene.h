@@ -53,12 +53,14 @@ struct Object {
 };
 
 /// Names of the light kinds, by GnLight::kind.
-inline constexpr std::array<std::string_view, 4> light_kind_names{"directional", "spot", "point", "rectangle"};
+inline constexpr std::array<std::string_view, 5> light_kind_names{"directional", "spot", "point", "rectangle",
+                                                                  "environment"};
 
 struct Light {
     std::string name;
     GnLight shape;
     std::vector<std::uint32_t> spared;  ///< objects that cast no shadow of it, ascending; set by finish_scene
+    GnSky sky{};                        ///< of an environment
 };
 
 /// A perspective camera, or an orthographic one, whose rays run side by side. It looks along forward_ws.
@@ -90,6 +92,8 @@ struct Scene {
     std::vector<Material> materials;  ///< never empty
     std::vector<Texture> textures;
     std::vector<Light> lights;    ///< never empty after finish_scene
+    /// Light from everywhere, of kind environment, beside `lights`; unset: environment_of makes one.
+    std::optional<Light> environment;
     std::vector<Camera> cameras;  ///< never empty after finish_scene
     std::vector<CameraPath> paths;
     Box bounds_ws;
@@ -141,6 +145,10 @@ struct BuiltinScene {
 const std::vector<BuiltinScene>& builtin_scenes();
 /// Makes a built-in scene. Throws Error listing the known names.
 Scene make_builtin_scene(const std::string& name_and_parameters);
+
+/// The scene's environment; without one a pale sky that gives a share of what the lights do, so that shadows are dark but
+/// not black.
+Light environment_of(const Scene& scene);
 
 inline bool is_orthographic(const Camera& camera) {
     return camera.half_height > 0.0F;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shading: a little light from everywhere, then each light times its visibility, one pass a light.
+// Shading: the environment, of which everything sees all, then each light times its visibility, one pass a light.
 #include "shadow/frame/frame.h"
-#include "shadow/scene/clusters.h"
+#include "shadow/receiver/channels.h"
 
 #include <algorithm>
 
@@ -21,8 +21,8 @@ layout(binding = 5) uniform sampler2D gbuffer_emission;
 layout(binding = 6, rgba32f) uniform image2D picture;
 )";
 
-constexpr const char* ambient_text = R"(
-layout(binding = 7, scalar) uniform Constants { GnViewConstants view; float ambient; } u;
+constexpr const char* environment_text = R"(
+layout(binding = 7, scalar) uniform Constants { GnViewConstants view; GnLight light; GnSky sky; } u;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
@@ -30,14 +30,13 @@ void main() {
     }
     vec3 radiance;
     if (texelFetch(gbuffer_position, pixel, 0).w > 0.5) {
-        // A pale sky above, half of it from below.
         float up = 0.5 + 0.5 * texelFetch(gbuffer_shading_normal, pixel, 0).y;
-        vec3 sky = mix(vec3(0.5, 0.48, 0.45), vec3(0.85, 0.95, 1.1), up);
-        radiance = texelFetch(gbuffer_albedo, pixel, 0).rgb * sky * (u.ambient / gn_pi);
+        vec3 sky = mix(u.sky.below.rgb, u.sky.above.rgb, up);
+        radiance = texelFetch(gbuffer_albedo, pixel, 0).rgb * sky * (u.light.intensity / gn_pi);
         radiance += texelFetch(gbuffer_emission, pixel, 0).rgb;
     } else {
         float height = float(pixel.y) / float(u.view.size.y);
-        radiance = mix(vec3(0.55, 0.75, 1.1), vec3(1.0, 0.98, 0.94), height) * (1.5 * u.ambient / gn_pi);
+        radiance = mix(u.sky.zenith.rgb, u.sky.horizon.rgb, height) * (u.sky.seen * u.light.intensity / gn_pi);
     }
     imageStore(picture, pixel, vec4(radiance, 1.0));
 }
@@ -57,9 +56,9 @@ void main() {
     if (position.w < 0.5 || !gn_counted(u.light, position.xyz, texelFetch(gbuffer_normal, pixel, 0).xyz)) {
         return;
     }
-    float v = 1.0;
+    vec3 v = vec3(1.0);
 #ifdef GN_VISIBILITY
-    v = texelFetch(visibility, pixel, 0).r;
+    v = vec3(GN_V_OF(texelFetch(visibility, pixel, 0)));
 #endif
     vec3 to_eye = normalize(gn_ray_to_eye(u.view, position.xyz));
     vec3 to_light = gn_to_light(u.light, position.xyz);
@@ -71,29 +70,15 @@ void main() {
 }
 )";
 
-struct AmbientConstants {
+struct EnvironmentConstants {
     GnViewConstants view;
-    float ambient;
+    GnLight light;
+    GnSky sky;
 };
 struct LightConstants {
     GnViewConstants view;
     GnLight light;
 };
-
-/// Ambient illuminance, lux: a share of what the lights give on the scene, so that shadows are dark but not black.
-float ambient_of(const Scene& scene) {
-    const Box around_ws = largest_cluster(scene);
-    const float reach = around_ws.empty() ? 1.0F : 0.2F * around_ws.diagonal();
-    float sum = 0;
-    for (const Light& light : scene.lights) {
-        const GnLight& shape = light.shape;
-        const float area = 4 * shape.half_size.x * shape.half_size.y;
-        sum += shape.kind == GN_LIGHT_DIRECTIONAL ? shape.intensity
-               : shape.kind == GN_LIGHT_RECTANGLE ? shape.intensity * area / (reach * reach)
-                                                  : 0.5F * shape.intensity / (reach * reach);
-    }
-    return 0.08F * sum;
-}
 
 void declare_gbuffer(PassBuilder& pass, const ViewSamples& samples) {
     for (const TextureHandle texture : {samples.position, samples.normal, samples.shading_normal, samples.albedo,
@@ -126,8 +111,10 @@ void add_light(const FrameInput& input, const Light& light, TextureHandle visibi
             }
             pass.storage_write(picture);
         },
-        [samples, visibility, picture, constants = LightConstants{samples.constants, light.shape}](Recorder& r) {
-            r.bind(shader("shade", visibility.valid() ? "#define GN_VISIBILITY\n" : "", light_text));
+        [samples, visibility, picture, constants = LightConstants{samples.constants, light.shape},
+         defines = visibility.valid() ? "#define GN_VISIBILITY\n" + channels_text(channels_of(input.graph, visibility))
+                                      : std::string()](Recorder& r) {
+            r.bind(shader("shade", defines, light_text));
             set_gbuffer(r, samples);
             if (visibility.valid()) {
                 r.set("visibility", visibility);
@@ -142,16 +129,17 @@ void add_light(const FrameInput& input, const Light& light, TextureHandle visibi
 
 TextureHandle add_shading(const FrameInput& input, std::span<const TextureHandle> visibility) {
     const ViewSamples& samples = input.samples;
+    const Light sky = environment_of(input.scene);
     const TextureHandle picture = input.graph.create(
         {.name = "picture", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = samples.width, .height = samples.height});
     input.graph.add_pass(
-        "ambient",
+        "environment",
         [&](PassBuilder& pass) {
             declare_gbuffer(pass, samples);
             pass.storage_write(picture);
         },
-        [samples, picture, constants = AmbientConstants{samples.constants, ambient_of(input.scene)}](Recorder& r) {
-            r.bind(shader("ambient", "", ambient_text));
+        [samples, picture, constants = EnvironmentConstants{samples.constants, sky.shape, sky.sky}](Recorder& r) {
+            r.bind(shader("environment", "", environment_text));
             set_gbuffer(r, samples);
             r.set_storage("picture", picture);
             r.set_value("u", constants);

@@ -2,6 +2,7 @@
 #include "shadow/view/read_back.h"
 
 #include "base/stats.h"
+#include "shadow/receiver/channels.h"
 
 #include <algorithm>
 
@@ -41,6 +42,15 @@ Image without_alpha(const Image& rgba) {
     return rgb;
 }
 
+Image with_alpha(const Image& rgb) {
+    Image rgba(rgb.width, rgb.height, 4, 1.0F);
+    for (std::size_t i = 0; i < rgb.pixels(); ++i) {
+        std::copy_n(rgb.values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                    rgba.values.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    }
+    return rgba;
+}
+
 void record_times(const GraphStatistics& statistics, FrameResult& result) {
     double shadow = 0;
     double frame = 0;
@@ -68,7 +78,7 @@ constexpr const char* unshadowed_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D gbuffer_position;
 layout(binding = 1) uniform sampler2D gbuffer_normal;
-layout(binding = 2, r32f) uniform writeonly image2D visibility;
+layout(binding = 2, GN_V_FORMAT) uniform writeonly image2D visibility;
 layout(binding = 3, scalar) uniform Constants { GnViewConstants view; GnLight light; } u;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -102,8 +112,10 @@ void add_lit(const FrameInput& input, const char* name, const Visibility& result
             pass.sample(input.samples.normal);
             pass.storage_write(result.image);
         },
-        [=, samples = input.samples](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, name, text}, {}});
+        [=, samples = input.samples,
+         shader = ComputeDesc{{ShaderKind::compute, name, channels_text(channels_of(input.graph, result.image)) + text},
+                              {}}](Recorder& r) {
+            r.bind(shader);
             r.set("gbuffer_position", samples.position);
             r.set("gbuffer_normal", samples.normal);
             r.set_storage("visibility", result.image);

@@ -10,6 +10,7 @@ CpuSamples read_samples(FrameGraph& graph, const ViewSamples& samples);
 /// R32F and RGBA32F textures as Image.
 Image read_image(FrameGraph& graph, TextureHandle texture);
 Image without_alpha(const Image& rgba);
+Image with_alpha(const Image& rgb);  ///< 1 everywhere
 
 /// Adds one run's times to the result; finish_times turns the passes into medians and copies the resources.
 void record_times(const GraphStatistics& statistics, FrameResult& result);

@@ -3,6 +3,9 @@
 
 #include "gpu/shader_inputs.h"
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/channels.h"
+
+#include <algorithm>
 
 namespace gn {
 namespace {
@@ -12,7 +15,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, imageSize(visibility)))) {
-        imageStore(visibility, pixel, GN_COMBINE(texelFetch(mapped, pixel, 0), texelFetch(direct, pixel, 0)));
+        imageStore(visibility, pixel, GN_COMBINE(GN_FIRST(texelFetch(first, pixel, 0)), GN_SECOND(texelFetch(second, pixel, 0))));
     }
 }
 )";
@@ -23,12 +26,19 @@ std::string define_of(Combine combine) {
 
 }  // namespace
 
-Visibility add_combined(const FrameInput& input, const Visibility& mapped, const Visibility& direct, Combine combine) {
-    const Visibility result{create_visibility(input.graph, input.samples)};
+Visibility add_combined(const FrameInput& input, const Visibility& first, const Visibility& second, Combine combine) {
+    const uint channels = std::max(channels_of(input.graph, first.image), channels_of(input.graph, second.image));
+    const Visibility result{create_visibility(input.graph, input.samples, channels)};
+    // One channel stands for all three.
+    const auto reader = [&](const char* name, const Visibility& v) {
+        return fmt::format("#define {}(texel) (texel){}\n", name,
+                           channels_of(input.graph, v.image) == 1 ? ".rrrr" : "");
+    };
     ShaderInputs inputs;
-    inputs.texture("sampler2D", "mapped", mapped.image).texture("sampler2D", "direct", direct.image);
-    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
-    const ComputeDesc shader{{ShaderKind::compute, "combine", define_of(combine) + inputs.text() + main_text}, {}};
+    inputs.texture("sampler2D", "first", first.image).texture("sampler2D", "second", second.image);
+    inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
+    const ComputeDesc shader{{ShaderKind::compute, "combine", define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) +
+                                  inputs.text() + main_text}, {}};
     input.graph.add_pass(
         "combine", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// V of a map and V of a direct part as one.
+// Two V as one: of a map and of a direct part, of opaque and of translucent casters.
 #pragma once
 
 #include "shadow/recipe/recipe.h"
 
 namespace gn {
 
-/// The product of both or the smaller of them, sample by sample.
-Visibility add_combined(const FrameInput& input, const Visibility& mapped, const Visibility& direct, Combine combine);
+/// The product of both or the smaller of them, sample by sample; with three channels where one of them has three.
+Visibility add_combined(const FrameInput& input, const Visibility& first, const Visibility& second, Combine combine);
 
 }  // namespace gn

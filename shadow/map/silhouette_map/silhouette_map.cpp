@@ -62,6 +62,7 @@ const Part& map_silhouette_map() {
         p.stage = Stage::map;
         p.title = "Depth and silhouette points";
         p.citation = "SCH03";
+        p.solid_only = true;
         p.gives = {"silhouettes"};
         p.add_map = add_silhouette_map;
         p.refuses = refuses;

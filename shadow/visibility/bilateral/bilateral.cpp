@@ -7,6 +7,7 @@
 #include "shadow/visibility/bilateral/bilateral.h"
 
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 
 namespace gn {
@@ -19,7 +20,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D gbuffer_position;
 layout(binding = 1) uniform sampler2D gbuffer_normal;
 layout(binding = 2) uniform sampler2D noisy;
-layout(binding = 3, r32f) uniform writeonly image2D filtered;
+layout(binding = 3, GN_V_FORMAT) uniform writeonly image2D filtered;
 layout(binding = 4, scalar) uniform Constants { GnViewConstants view; GnLight light; GnBilateralParams params; } u;
 layout(push_constant) uniform Push { ivec2 axis; };
 void main() {
@@ -39,8 +40,8 @@ void main() {
 
     // Average how much what counts for the light differs from the sample, by closeness on screen and in space: where all is
     // the same nothing changes, however a device divides.
-    float own = texelFetch(noisy, pixel, 0).r;
-    float sum = 0.0;
+    GN_V own = GN_V_OF(texelFetch(noisy, pixel, 0));
+    GN_V sum = GN_V(0.0);
     float weights = 1.0;
     for (int i = -u.params.radius; i <= u.params.radius; ++i) {
         ivec2 neighbour = pixel + i * axis;
@@ -54,10 +55,10 @@ void main() {
         }
         float weight = gn_bilateral_spatial(abs(i), u.params.radius) *
                        gn_bilateral_range(position.xyz, normal.xyz, pixel_ws, q.xyz, q_n, u.params);
-        sum += weight * (texelFetch(noisy, neighbour, 0).r - own);
+        sum += weight * (GN_V_OF(texelFetch(noisy, neighbour, 0)) - own);
         weights += weight;
     }
-    imageStore(filtered, pixel, vec4(gn_unit(own + sum / weights)));
+    imageStore(filtered, pixel, GN_V_TEXEL(gn_unit(own + sum / weights)));
 }
 )";
 
@@ -70,7 +71,8 @@ struct Constants {
 /// One direction of the filter.
 TextureHandle add_direction(const FrameInput& input, const GnBilateralParams& params, TextureHandle noisy, ivec2 axis) {
     const ViewSamples& samples = input.samples;
-    const TextureHandle filtered = create_visibility(input.graph, samples);
+    const uint channels = channels_of(input.graph, noisy);
+    const TextureHandle filtered = create_visibility(input.graph, samples, channels);
     input.graph.add_pass(
         axis.x != 0 ? "bilateral x" : "bilateral y",
         [&](PassBuilder& pass) {
@@ -79,7 +81,7 @@ TextureHandle add_direction(const FrameInput& input, const GnBilateralParams& pa
             pass.sample(noisy);
             pass.storage_write(filtered);
         },
-        [samples, noisy, filtered, axis, text = expect_text(input.device) + filter_text,
+        [samples, noisy, filtered, axis, text = expect_text(input.device) + channels_text(channels) + filter_text,
          constants = Constants{samples.constants, input.light().shape, params}](Recorder& r) {
             r.bind(ComputeDesc{.shader = {ShaderKind::compute, "bilateral.comp", text}});
             r.set("gbuffer_position", samples.position);
