@@ -107,12 +107,16 @@ std::string quoted_command(const std::vector<std::string>& words) {
     return line;
 }
 
-/// "view, texels or bias" of all pictures of the hidden.
+/// "view, texels, bias" of all pictures of the hidden.
 std::string known_pictures() {
     std::string names;
     const auto pictures = hidden_pictures();
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        names += std::string(i == 0 ? "" : i + 1 == pictures.size() ? " or " : ", ") + std::string(pictures[i].name);
+        names += std::string(i == 0 ? "" : ", ") + std::string(pictures[i].name);
+    }
+    // What lookups tell beside V comes last.
+    for (const HiddenPicture& side : side_pictures()) {
+        names += ", " + std::string(side.name);
     }
     return names;
 }
@@ -171,7 +175,8 @@ struct Parser {
                          "Frames with sub-pixel shifts that are averaged; each costs a whole frame, 1 smooths "
                          "nothing; V and --show are of the unshifted frame (default: 4)")
             ->check(CLI::Range(1, 64));
-        command->add_option("--visibility", render.visibility, "Also write V as .exr, a channel a light, or three in colour");
+        command->add_option("--visibility", render.visibility,
+                            "Also write V as .exr, a channel a light, or three in colour");
         command->add_option("--show", render.show,
                             "Instead of the picture, what the recipe hides: " + known_pictures());
         command->add_option("--light", render.light, "The light that --show is of (default: the first)");

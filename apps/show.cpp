@@ -138,6 +138,10 @@ void show_recipe(const std::string& name) {
         fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, min_resolution, max_resolution);
         fmt::print("  casters     {}, of {}\n", name_of(recipe.casters), fmt::join(caster_names, ", "));
     }
+    if (recipe.translucent_map != nullptr) {
+        fmt::print("  translucent map {}, lookup {}\n", recipe.translucent_map->id,
+                   part_name(recipe.translucent_lookup, "none"));
+    }
     if (!mapped || recipe.direct != nullptr) {
         fmt::print("  direct      {}\n", part_name(recipe.direct, "none"));
     }

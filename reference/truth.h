@@ -18,7 +18,8 @@ struct TruthOptions {
     int threads = 0;           ///< 0: all; changes nothing in the result
     bool (*stop)() = nullptr;  ///< asked by every thread before every view sample; true leaves the rest untraced
     bool integral = false;     ///< also [EASW09] eq. 1.3: sum of V x cosine-weighted radiance over the light
-    int channels = 1;          ///< 3: V of red, green and blue, which translucent surfaces on the way tint; 1: they block nothing
+    int channels =
+        1;  ///< 3: V of red, green and blue, which translucent surfaces on the way tint; 1: they block nothing
     /// Instead of random points of the light exactly these, for tests: V is their weighted mean, without an error of its
     /// own; points behind a sample's surface show it nothing, though it be a sheet that no ray meets again. Not together with `integral`.
     const LightSamples* exactly = nullptr;

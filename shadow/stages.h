@@ -106,8 +106,9 @@ struct FrameInput {
     /// Where answers that come after the frame (FrameGraph::answer) say what it lacked; lives as long as they can come.
     std::set<std::string>* late_remarks = nullptr;
     const PreparedRecipe* prepared = nullptr;  ///< what the recipe's frames share; null where one is drawn alone
-    const Light* parent = nullptr;  ///< the light that `source` is a sample of; null where it is a whole one
-    bool translucent = false;       ///< maps hold the translucent casters instead of the opaque and masked ones
+    const Light* parent = nullptr;             ///< the light that `source` is a sample of; null where it is a whole one
+    std::vector<std::string_view> sides;       ///< what lookups are asked to tell beside V
+    bool translucent = false;  ///< maps hold the translucent casters instead of the opaque and masked ones
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;
@@ -206,6 +207,12 @@ struct ShadowMap {
 /// where V has a channel for each of red, green and blue (shadow/receiver/channels.h).
 struct Visibility {
     TextureHandle image;
+    std::vector<Offer>
+        sides{};  ///< what the lookup was asked to tell beside V, R32F each; 0 where the sample does not count
+    [[nodiscard]] const Offer* find(std::string_view side) const {
+        const auto found = std::find_if(sides.begin(), sides.end(), [&](const Offer& o) { return o.name == side; });
+        return found != sides.end() ? &*found : nullptr;
+    }
 };
 
 }  // namespace gn

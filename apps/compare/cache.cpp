@@ -82,6 +82,9 @@ void add_recipe(Hasher& hasher, const Recipe& recipe) {
     for (const Part* part : recipe.parts()) {
         hasher.text(stage_names[static_cast<std::size_t>(part->stage)]).text(part->id);
     }
+    for (const Part* part : {recipe.translucent_map, recipe.translucent_lookup}) {
+        hasher.text(part != nullptr ? part->id : "");
+    }
     hasher.value(recipe.combine ? static_cast<int>(*recipe.combine) : -1);
     for (const auto& [id, block] : recipe.params) {
         hasher.text(id).bytes(block.bytes().data(), block.bytes().size());

@@ -177,10 +177,9 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             if (const std::string remark = shadow_remark(reach, light.name); !remark.empty()) {
                 run.remarks.push_back(remark);
             }
-            light.errors =
-                errors_of(frame.visibility[l], view.samples(), view.scene().lights[l].shape, truth,
-                          explained_acne(view, bench, recipe, frame.visibility[l], l, truth),
-                          other_of(run, against, l, light.name, frame.visibility[l].channels));
+            light.errors = errors_of(frame.visibility[l], view.samples(), view.scene().lights[l].shape, truth,
+                                     explained_acne(view, bench, recipe, frame.visibility[l], l, truth),
+                                     other_of(run, against, l, light.name, frame.visibility[l].channels));
             errors.push_back(light.errors);
             served[l] = true;
             const std::vector<float> map = combined.add(frame.visibility[l], truth);
@@ -207,9 +206,8 @@ void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const Fra
     const Image technique = tonemap(frame.picture, view.exposure());
     const bool colours = std::any_of(frame.visibility.begin(), frame.visibility.end(),
                                      [](const Image& visibility) { return visibility.channels == 3; });
-    const Image reference = all && !colours
-                                ? view.reference_picture()
-                                : view.picture_of(bench, view.reference_visibility(served, colours));
+    const Image reference =
+        all && !colours ? view.reference_picture() : view.picture_of(bench, view.reference_visibility(served, colours));
     run.errors.luma_rms = luma_rms(technique, reference);
     run.errors.flip = flip(technique, reference);
     run.picture = names.write("picture", technique);

@@ -137,11 +137,9 @@ const TruthResult& ViewSession::truth(std::size_t light, int channels) {
     colour_truth_.resize(truth_.size());
     std::optional<TruthResult>& kept = colour_truth_.at(light);
     if (!kept) {
-        kept = tracer().trace(samples_.position_ws, samples_.normal_ws, scene_->lights[light],
-                              {.samples = options_.samples,
-                               .threads = options_.threads,
-                               .stop = stop_requested,
-                               .channels = channels});
+        kept = tracer().trace(
+            samples_.position_ws, samples_.normal_ws, scene_->lights[light],
+            {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested, .channels = channels});
         if (!kept->complete) {
             kept.reset();
             throw Stopped();

@@ -71,8 +71,8 @@ struct Judged {
     std::size_t wrong = 0, samples = 0, tinted = 0;
 };
 Judged judge(const Scene& scene, const FrameResult& frame, const TruthOptions& options, float most) {
-    const TruthResult truth = Truth(scene).trace(frame.samples.position_ws, frame.samples.normal_ws,
-                                                 scene.lights.front(), options);
+    const TruthResult truth =
+        Truth(scene).trace(frame.samples.position_ws, frame.samples.normal_ws, scene.lights.front(), options);
     Judged judged;
     // Every edge is one of red, green or blue; a tint of a quarter is found as an edge when it is stretched to the whole.
     std::vector<std::uint8_t> edges(truth.counted.size(), 0);

@@ -34,7 +34,21 @@ Visibility add_both_maps(const FrameInput& input, const Recipe& recipe) {
     }
     FrameInput glass = input;
     glass.translucent = true;
+    glass.sides.clear();
     return add_combined(input, solid, add_mapped(glass, recipe.of_translucent()), Combine::product);
+}
+
+/// What the visibility parts ask the lookup to tell.
+std::vector<std::string_view> needed_sides(const Recipe& recipe) {
+    std::vector<std::string_view> sides;
+    for (const Part* part : recipe.visibility) {
+        for (const std::string_view need : part->needs) {
+            if (!holds(sides, need)) {
+                sides.push_back(need);
+            }
+        }
+    }
+    return sides;
 }
 
 /// Map, direct part, or both as one.
@@ -55,10 +69,15 @@ Visibility add_one_light(const FrameInput& input, const Recipe& recipe) {
 Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
     check_recipe(recipe, input.scene, input.light(), input.device);
 
+    FrameInput asking = input;
+    asking.sides = needed_sides(recipe);
     const auto serve = [&](const FrameInput& light) { return add_one_light(light, recipe); };
-    Visibility visibility = recipe.light != nullptr ? add_weighted(input, recipe, serve) : serve(input);
+    Visibility visibility = recipe.light != nullptr ? add_weighted(input, recipe, serve) : serve(asking);
     for (const Part* part : recipe.visibility) {
+        // What the lookup told stays beside V.
+        std::vector<Offer> sides = visibility.sides;
         visibility = part->add_visibility(input, recipe, visibility);
+        visibility.sides = std::move(sides);
     }
     add_unshadowed(input, visibility);
     return visibility;

@@ -75,10 +75,13 @@ ShaderInputs inputs_of(const FrameInput& input) {
     return inputs;
 }
 
-void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility, TextureHandle sums) {
+void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, TextureHandle visibility,
+             TextureHandle sums) {
     const Part& part = *recipe.light;
     ShaderInputs inputs = inputs_of(one);
-    inputs.constant("GnLight", "one", one.light().shape).constant("int", "index", index).constant("int", "count", count);
+    inputs.constant("GnLight", "one", one.light().shape)
+        .constant("int", "index", index)
+        .constant("int", "count", count);
     inputs.constant_bytes(part.params_type, "params", recipe.block(part).bytes());
     inputs.texture("sampler2D", "visibility", visibility);
     const uint channels = channels_of(one.graph, visibility);

@@ -26,18 +26,21 @@ void main() {
     }
     GN_V v = GN_V(0.0);
     GnReceiver receiver;
-    if (read_sample(pixel, receiver)) {
+    bool counted = read_sample(pixel, receiver);
+    GnChoice choice = GnChoice(0, -1, 0.0);
+    if (counted) {
 #ifdef GN_CASTER_IDS
         vec2 id_bytes = round(texelFetch(gbuffer_material, pixel, 0).zw * 255.0);
         receiver.object = int(id_bytes.x) + 256 * int(id_bytes.y);
 #endif
-        GnChoice choice = GN_CHOOSE(receiver, placement);
+        choice = GN_CHOOSE(receiver, placement);
         v = visibility_in(receiver, choice.first);
         if (GN_TWO_VIEWS && choice.second >= 0 && choice.weight > 0.0) {
             v = mix(v, visibility_in(receiver, choice.second), choice.weight);
         }
     }
     imageStore(visibility, pixel, GN_V_TEXEL(v));
+    GN_WRITE_SIDES(pixel, counted, receiver, choice.first);
 }
 )";
 
@@ -87,6 +90,31 @@ std::string calls(const Recipe& recipe, const ShadowMap& map) {
                        arguments(map, read_by(lookup)), lookup.params_type.empty() ? "" : ", u.lookup_params");
 }
 
+std::string side_name(std::string_view side) {
+    return "side_" + identifier(side);
+}
+
+/// What is told beside V, by the view that serves the sample first.
+std::string side_calls(const FrameInput& input, const Recipe& recipe, const ShadowMap& map) {
+    if (input.sides.empty()) {
+        return "#define GN_WRITE_SIDES(pixel, counted, receiver, index)\n";
+    }
+    const Part& lookup = *recipe.lookup;
+    std::string text =
+        "#define GN_WRITE_SIDES write_sides\n"
+        "void write_sides(ivec2 pixel, bool counted, GnReceiver receiver, int index) {\n"
+        "    GnLookup at;\n"
+        "    if (counted) {\n"
+        "        at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);\n"
+        "        counted = at.projected.inside;\n    }\n";
+    for (const std::string_view side : input.sides) {
+        text += fmt::format("    imageStore({}, pixel, vec4(counted ? gn_{}_{}(at{}{}) : 0.0));\n", side_name(side),
+                            identifier(lookup.id), identifier(side), arguments(map, read_by(lookup)),
+                            lookup.params_type.empty() ? "" : ", u.lookup_params");
+    }
+    return text + "}\n";
+}
+
 std::string map_call(const Part& part, const ShadowMap& map) {
     return fmt::format("#define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) gn_{}_visibility(at{}, ddx_ts, ddy_ts{})\n",
                        identifier(part.id), arguments(map, part.textures),
@@ -126,7 +154,7 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
     text += include_line(lookup_header) + inputs.text();
     text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
     text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
-    text += sample_functions(placement) + calls(recipe, map) + main_text;
+    text += sample_functions(placement) + calls(recipe, map) + side_calls(input, recipe, map) + main_text;
     return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text},
             lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
 }
@@ -134,7 +162,7 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
 /// All that a recipe's resolve shader depends on from light to light.
 std::uint64_t shader_key(const Recipe& recipe, const LightViews& views, const ShaderInputs& inputs) {
     Hasher hasher;
-    hasher.text(views.part->id).text(receiver_defines(recipe, views)).value(views.crosses).value(views.views.size());
+    hasher.text(views.part->id).text(recipe.map->id).text(recipe.lookup->id).text(receiver_defines(recipe, views)).value(views.crosses).value(views.views.size());
     inputs.hash(hasher);
     return hasher.finish().low;
 }
@@ -150,8 +178,10 @@ TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples, u
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     const uint channels = recipe.lookup->channels;
-    const Visibility result{create_visibility(input.graph, input.samples, channels)};
-    const ivec4 lit = lit_pixels(input);
+    const ViewSamples& samples = input.samples;
+    Visibility result{create_visibility(input.graph, samples, channels)};
+    // Sides are written for all of the picture.
+    const ivec4 lit = input.sides.empty() ? lit_pixels(input) : ivec4(0, 0, samples.width, samples.height);
 
     // No sample counts beyond the pixels that the light can reach, which may be all of them in one frame and few in the next.
     if (input.light().shape.kind != GN_LIGHT_DIRECTIONAL) {
@@ -160,6 +190,10 @@ Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const Ligh
     }
     ShaderInputs inputs = inputs_of(input, recipe, views, map);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
+    for (const std::string_view side : input.sides) {
+        result.sides.push_back({std::string(side), create_visibility(input.graph, samples), nearest()});
+        inputs.image("r32f", "writeonly", "image2D", side_name(side), result.sides.back().texture);
+    }
     const auto shader = made_once(input.prepared, "resolve", shader_key(recipe, views, inputs),
                                   [&] { return sealed(resolve_shader(input, recipe, views, map, inputs)); });
     input.graph.add_pass(

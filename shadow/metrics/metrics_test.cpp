@@ -12,6 +12,26 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Floats = std::vector<float>;
 
+TEST(Metrics, ChannelsOfOneLightArePooledAndCountEachSampleOnce) {
+    // Red is right, green is dark by half, blue is leaked into.
+    const std::vector<float> technique{1, 0.5F, 1, 0, 0, 0.25F}, reference{1, 1, 1, 0, 0, 0};
+    const std::vector<std::uint8_t> counted{1, 1};
+    std::vector<Errors> channels;
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<float> t = channel_of(technique, 3, c), r = channel_of(reference, 3, c);
+        EXPECT_EQ(r, (std::vector<float>{1, 0}));
+        channels.push_back(visibility_errors(t, r, counted, 2, 1));
+    }
+    EXPECT_EQ(channel_of(technique, 3, 2), (std::vector<float>{1, 0.25F}));
+    const Errors pooled = pool_channels(channels);
+    EXPECT_EQ(pooled.samples, 2U);
+    EXPECT_EQ(pooled.lit, 1U);
+    EXPECT_NEAR(*pooled.mae, (0.5 + 0.25) / 6, 1e-12);
+    EXPECT_NEAR(*pooled.acne, 0.5 / 3, 1e-12);
+    EXPECT_NEAR(*pooled.leak, 0.25 / 3, 1e-12);
+    EXPECT_NEAR(*pooled.rmse, std::sqrt((0.25 + 0.0625) / 6), 1e-12);
+}
+
 TEST(Metrics, HandComputedPicture) {
     // Eight samples, the last two not counted.
     const Floats reference{0, 0, 1, 1, 0.5F, 0.25F, 1, 0};

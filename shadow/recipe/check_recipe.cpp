@@ -196,6 +196,17 @@ void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, 
         !sentence.empty()) {
         refuse("{}", sentence);
     }
+    for (const Part* part : recipe.visibility) {
+        for (const std::string_view side : part->needs) {
+            if (recipe.light != nullptr || recipe.lookup == nullptr || !tells(*recipe.lookup, side)) {
+                refuse("visibility '{}' reads '{}', which {} does not tell; lookups that tell it: {}", part->id, side,
+                       recipe.light != nullptr    ? fmt::format("light '{}' with its many lights", recipe.light->id)
+                       : recipe.lookup != nullptr ? fmt::format("lookup '{}'", recipe.lookup->id)
+                                                  : "a recipe without a lookup",
+                       lookups_that_tell(side));
+            }
+        }
+    }
     if (const std::string sentence = casters_misfit(recipe, scene); !sentence.empty()) {
         refuse("{}", sentence);
     }

@@ -27,6 +27,21 @@ std::string LightKinds::names() const {
     return list.empty() ? "no" : list;
 }
 
+bool tells(const Part& lookup, std::string_view side) {
+    return std::any_of(lookup.sides.begin(), lookup.sides.end(), [&](const Side& told) { return told.name == side; });
+}
+
+std::string lookups_that_tell(std::string_view side) {
+    std::string list;
+    for (const Part* part : all_parts()) {
+        if (part->stage == Stage::lookup && tells(*part, side)) {
+            list += list.empty() ? "" : ", ";
+            list += part->id;
+        }
+    }
+    return list.empty() ? "none" : list;
+}
+
 bool holds(std::span<const std::string_view> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }

@@ -29,6 +29,7 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //               what V of light `index` of `count`, `one`, weighs at a receiver; at least 0
 //   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
 //   lookup      float (vec3 where `channels` is 3) gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
+//               float gn_<id>_<side>(the same) for each of `sides`
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
 //               Params), for maps that give "filterable"; the lookup `filtered` calls it as
 //               GN_MAP_VISIBILITY(GnLookup, ddx_ts, ddy_ts)
@@ -39,13 +40,20 @@ struct Guard {
     float texels = 0, metres = 0, pixels = 0;
 };
 
+/// A number beside V that a lookup can tell of every view sample.
+struct Side {
+    std::string_view name, unit, sentence;  ///< "blocker-distance", "m", "How far ..."
+};
+
 class Part {
   public:
     std::string_view id;  ///< as users type it: "pcf", "sat-vsm"; the folder is the same with '_' for '-'
     Stage stage = Stage::lookup;
-    std::string_view title;               ///< "Percentage-closer filtering"
-    std::string_view citation;            ///< key in docs/references.bib
-    std::vector<std::string_view> needs;  ///< lookup: what the map must give, or what is derived of that
+    std::string_view title;     ///< "Percentage-closer filtering"
+    std::string_view citation;  ///< key in docs/references.bib
+    /// lookup: what the map must give, or what is derived of that; visibility: the sides that it reads.
+    std::vector<std::string_view> needs;
+    std::vector<Side> sides;  ///< lookup: what it can tell beside V; costs nothing where nobody asks
     /// lookup: what it reads besides where the map gives it in this recipe ("ids"); else another texture is passed, which its
     /// GLSL must not read.
     std::vector<std::string_view> optional;
@@ -89,6 +97,9 @@ class Part {
     SpecConstants (*constants)(const Recipe&) = nullptr;
 };
 
+/// Whether a lookup can tell this of a sample; the ids of those that can, "hard, pcf", or "none".
+bool tells(const Part& lookup, std::string_view side);
+std::string lookups_that_tell(std::string_view side);
 /// Whether a list of names holds one.
 bool holds(std::span<const std::string_view> names, std::string_view name);
 

@@ -247,6 +247,25 @@ TEST(Recipes, NonsenseIsRefusedByName) {
     expect_has(refusal_of(recipe, GN_LIGHT_SPOT, {}), {"'planar'", "'depth'", "combine is product or minimum"});
 }
 
+TEST(Recipes, TranslucentCastersMayHaveAMapAndALookup) {
+    const RecipeFile file(
+        "map = \"depth\"\nlookup = \"pcf\"\n[translucent]\nmap = \"vsm\"\nlookup = \"filtered\"\n[vsm]\nradius = 2\n");
+    const Recipe recipe = load_recipe(file.path());
+    EXPECT_EQ(recipe.map->id, "depth");
+    EXPECT_EQ(recipe.translucent_map->id, "vsm");
+    EXPECT_EQ(recipe.of_translucent().map->id, "vsm");
+    EXPECT_EQ(recipe.of_translucent().lookup->id, "filtered");
+    EXPECT_EQ(load_recipe("hard,translucent.map=depth,translucent.lookup=hard").parts().size(), 2U);
+    expect_has(sentence_of("hard,translucent.map=depth"), {"translucent", "need a map and a lookup"});
+    expect_has(sentence_of("hard,translucent.speed=3"), {"unknown key 'translucent'", "translucent"});
+    expect_has(sentence_of("volumes,translucent.map=depth,translucent.lookup=hard"), {"would change nothing"});
+    expect_has(
+        refusal_of(load_recipe("hard,translucent.map=silhouette-map,translucent.lookup=silhouette"), GN_LIGHT_SPOT, {}),
+        {"'silhouette-map' holds opaque casters only", "depth"});
+    expect_has(refusal_of(load_recipe("hard,translucent.map=vsm,translucent.lookup=hard"), GN_LIGHT_SPOT, {}),
+               {"'hard' reads depth", "'vsm' gives"});
+}
+
 TEST(Recipes, VisibilityIsOneNameOrAListInOrder) {
     EXPECT_EQ(load_recipe("pcf").visibility.size(), 0U);
     EXPECT_EQ(load_recipe("pcf,visibility=bilateral").visibility.front()->id, "bilateral");

@@ -36,11 +36,12 @@ struct GnLight {
 
 /// What an environment looks like, relative to its intensity: the light that surfaces get, and the sky that is seen.
 struct GnSky {
-    vec4 above GN_DEFAULT(vec4(0.85f, 0.95f, 1.1f, 0));    ///< rgb on a surface that faces up: a pale sky
-    vec4 below GN_DEFAULT(vec4(0.5f, 0.48f, 0.45f, 0));    ///< rgb on a surface that faces down: half of it, from the ground
+    vec4 above GN_DEFAULT(vec4(0.85f, 0.95f, 1.1f, 0));  ///< rgb on a surface that faces up: a pale sky
+    vec4 below GN_DEFAULT(vec4(0.5f, 0.48f, 0.45f,
+                               0));  ///< rgb on a surface that faces down: half of it, from the ground
     vec4 zenith GN_DEFAULT(vec4(0.55f, 0.75f, 1.1f, 0));   ///< rgb at the top of the picture, where no surface is seen
     vec4 horizon GN_DEFAULT(vec4(1.0f, 0.98f, 0.94f, 0));  ///< rgb at the bottom
-    float seen GN_DEFAULT(1.5f);                           ///< how much brighter the sky itself is than the light from it
+    float seen GN_DEFAULT(1.5f);  ///< how much brighter the sky itself is than the light from it
 };
 
 #ifdef __cplusplus

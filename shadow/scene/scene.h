@@ -91,7 +91,7 @@ struct Scene {
     std::vector<Object> objects;      ///< cover all triangles in order
     std::vector<Material> materials;  ///< never empty
     std::vector<Texture> textures;
-    std::vector<Light> lights;    ///< never empty after finish_scene
+    std::vector<Light> lights;  ///< never empty after finish_scene
     /// Light from everywhere, of kind environment, beside `lights`; unset: environment_of makes one.
     std::optional<Light> environment;
     std::vector<Camera> cameras;  ///< never empty after finish_scene

@@ -4,6 +4,7 @@
 
 #include "shadow/frame/history.h"
 #include "shadow/frame/map_memory.h"
+#include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
 #include "shadow/show/show_passes.h"
 #include "shadow/view/read_back.h"
@@ -62,11 +63,41 @@ struct Built {
     LightViews views;
     ShadowMap map;
     SampleFigures figures;
+    std::vector<Offer> sides;
     LayerTiles map_tiles, light_tiles;
 };
 
 bool asked(std::span<const std::string> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Those of the names that the lookup tells beside V.
+std::vector<std::string_view> asked_sides(const Recipe& recipe, std::span<const std::string> names) {
+    std::vector<std::string_view> sides;
+    for (const HiddenPicture& picture : side_pictures()) {
+        if (!asked(names, picture.name)) {
+            continue;
+        }
+        if (!tells(*recipe.lookup, picture.name)) {
+            refuse("lookup '{}' does not tell '{}'; lookups that tell it: {}", recipe.lookup->id, picture.name,
+                   lookups_that_tell(picture.name));
+        }
+        sides.push_back(picture.name);
+    }
+    return sides;
+}
+
+/// The stages up to the lookup, for what it tells beside V.
+std::vector<Offer> add_sides(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    ShadowMap map = recipe.map->add_map(input, recipe, views);
+    map.part = recipe.map;
+    add_derived(input, recipe, views, map);
+    check_map_memory(input, recipe, map.texture());
+    const Visibility visibility = add_resolve(input, recipe, views, map);
+    for (const Offer& side : visibility.sides) {
+        input.graph.keep(side.texture);
+    }
+    return visibility.sides;
 }
 
 Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
@@ -76,9 +107,9 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     const SceneHandles handles = import_scene(graph, scene);
     built.samples = add_view_samples(graph, scene, handles, camera, options.width, options.height);
     graph.group("shadow");
-    const FrameInput input{graph.device(), graph,          *scene.scene,
-                           handles,        built.samples,  &scene.scene->lights.at(options.light),
-                           options.light,  options.history};
+    FrameInput input{graph.device(), graph,          *scene.scene,
+                     handles,        built.samples,  &scene.scene->lights.at(options.light),
+                     options.light,  options.history};
 
     // The stages before the lookup, as in a frame.
     check_recipe(recipe, input.scene, input.light(), input.device);
@@ -92,6 +123,10 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     if (asked(names, "light-view")) {
         built.light_tiles = add_layer_tiles(input, add_light_picture(input, recipe, built.views));
         graph.keep(built.light_tiles.image);
+    }
+    input.sides = asked_sides(recipe, names);
+    if (!input.sides.empty()) {
+        built.sides = add_sides(input, recipe, built.views);
     }
     built.figures = add_sample_figures(input, recipe, built.views);
     graph.keep(built.figures.choice);
@@ -115,13 +150,30 @@ std::span<const HiddenPicture> hidden_pictures() {
     return pictures;
 }
 
+std::span<const HiddenPicture> side_pictures() {
+    static const std::vector<HiddenPicture> pictures = [] {
+        std::vector<HiddenPicture> found;
+        for (const Part* part : all_parts()) {
+            for (const Side& side : part->sides) {
+                if (std::none_of(found.begin(), found.end(), [&](const auto& p) { return p.name == side.name; })) {
+                    found.push_back({side.name, side.sentence, true});
+                }
+            }
+        }
+        return found;
+    }();
+    return pictures;
+}
+
 const HiddenPicture& find_hidden(std::string_view name) {
     std::vector<std::string_view> known;
-    for (const HiddenPicture& picture : hidden_pictures()) {
-        if (picture.name == name) {
-            return picture;
+    for (const std::span<const HiddenPicture> pictures : {hidden_pictures(), side_pictures()}) {
+        for (const HiddenPicture& picture : pictures) {
+            if (picture.name == name) {
+                return picture;
+            }
+            known.push_back(picture.name);
         }
-        known.push_back(picture.name);
     }
     fail("no picture is called '{}'; {}", name, suggest(name, known));
 }
@@ -163,6 +215,11 @@ std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& ca
         } else if (name == "map") {
             shown.push_back(color_map(read_image(graph, built.map_tiles.image), built.map_tiles,
                                       graph.desc(built.map.texture()), holds(recipe.map->gives, "depth")));
+        } else if (const auto side = std::find_if(built.sides.begin(), built.sides.end(),
+                                                  [&](const Offer& offer) { return offer.name == name; });
+                   side != built.sides.end()) {
+            shown.push_back(color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes),
+                                       find_hidden(name).sentence));
         } else {
             shown.push_back(color_light(read_image(graph, built.light_tiles.image), built.light_tiles));
         }

@@ -13,7 +13,9 @@ struct HiddenPicture {
 };
 /// In the order to show them: view, texels, bias, map, light-view.
 std::span<const HiddenPicture> hidden_pictures();
-/// Throws Error listing the known names.
+/// What lookups tell beside V, as pictures of the view: "blocker-distance".
+std::span<const HiddenPicture> side_pictures();
+/// One of either kind. Throws Error listing the known names.
 const HiddenPicture& find_hidden(std::string_view name);
 
 /// One such picture.
@@ -33,8 +35,8 @@ struct HiddenOptions {
     History* history = nullptr;  ///< as FrameOptions::history
 };
 
-/// All of `names` from one frame. Throws Error for an unknown name, Refusal for a recipe without a map and where the
-/// recipe cannot serve the light.
+/// All of `names` from one frame. Throws Error for an unknown name, Refusal for a recipe without a map, for what its lookup
+/// does not tell, and where the recipe cannot serve the light.
 std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                                std::span<const std::string> names, const HiddenOptions& options);
 

@@ -71,6 +71,12 @@ const Scale& bias_scale() {
     return scale;
 }
 
+const Scale& side_scale() {
+    static const Scale scale{
+        0.01F, 100, bias_scale().colors, {{0.01F, "0.01"}, {0.1F, "0.1"}, {1, "1"}, {10, "10"}, {100, "100"}}};
+    return scale;
+}
+
 /// A bar with its values in the lower left corner, where the picture has room for it.
 void burn_scale(Image& picture, const Scale& scale) {
     constexpr int bar = 200, tall = 8, edge = 6, text_scale = 2;
@@ -208,6 +214,18 @@ Shown color_bias(const Image& sizes) {
     shown.legend =
         "Metres that the bias moves a receiver, from 0.1 mm (dark) over 1 cm (green) to 1 m (yellow); magenta: in no "
         "light view, grey: no light arrives.";
+    return shown;
+}
+
+Shown color_side(const Image& side, const Image& sizes, std::string_view sentence) {
+    Image figures = sizes;
+    for (std::size_t i = 0; i < side.values.size(); ++i) {
+        figures.values[4 * i] = side.values[i];
+    }
+    Shown shown = color_figures(figures, 0, side_scale());
+    shown.legend = fmt::format(
+        "{} From 0.01 (dark) over 1 (green) to 100 (yellow); magenta: in no light view, grey: no light arrives.",
+        sentence);
     return shown;
 }
 

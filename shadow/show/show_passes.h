@@ -44,6 +44,8 @@ TextureHandle add_light_picture(const FrameInput& input, const Recipe& recipe, c
 Shown color_choice(const Image& choice, std::span<const float> shade, const LightViews& views);
 Shown color_texels(const Image& sizes);
 Shown color_bias(const Image& sizes);
+/// What a lookup told; `sizes` have each sample's state.
+Shown color_side(const Image& side, const Image& sizes, std::string_view sentence);
 Shown color_map(const Image& tiles, const LayerTiles& layout, const TextureDesc& map, bool depth);
 Shown color_light(const Image& tiles, const LayerTiles& layout);
 

@@ -28,7 +28,7 @@ std::string define_of(Combine combine) {
 
 Visibility add_combined(const FrameInput& input, const Visibility& first, const Visibility& second, Combine combine) {
     const uint channels = std::max(channels_of(input.graph, first.image), channels_of(input.graph, second.image));
-    const Visibility result{create_visibility(input.graph, input.samples, channels)};
+    const Visibility result{create_visibility(input.graph, input.samples, channels), first.sides};
     // One channel stands for all three.
     const auto reader = [&](const char* name, const Visibility& v) {
         return fmt::format("#define {}(texel) (texel){}\n", name,
@@ -37,8 +37,10 @@ Visibility add_combined(const FrameInput& input, const Visibility& first, const 
     ShaderInputs inputs;
     inputs.texture("sampler2D", "first", first.image).texture("sampler2D", "second", second.image);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
-    const ComputeDesc shader{{ShaderKind::compute, "combine", define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) +
-                                  inputs.text() + main_text}, {}};
+    const ComputeDesc shader{
+        {ShaderKind::compute, "combine",
+         define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() + main_text},
+        {}};
     input.graph.add_pass(
         "combine", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {

@@ -6,7 +6,8 @@
 
 namespace gn {
 
-/// The product of both or the smaller of them, sample by sample; with three channels where one of them has three.
+/// The product of both or the smaller of them, sample by sample; with three channels where one of them has three. What is told
+/// beside V is the first one's.
 Visibility add_combined(const FrameInput& input, const Visibility& first, const Visibility& second, Combine combine);
 
 }  // namespace gn

@@ -106,11 +106,12 @@ struct Range {
 Range within_half_a_texel(const GnLight& point, vec3 p_ws, const KernelRegion& region) {
     Range range;
     const vec3 ray_ws = gn_to_light(point, p_ws);
-    for (int s = -4; s <= 4; ++s) {
-        for (int t = -4; t <= 4; ++t) {
-            // A region is a texel and a half about the receiver; a hundredth covers rounding. Along the ray to the ground.
+    for (int s = -8; s <= 8; ++s) {
+        for (int t = -8; t <= 8; ++t) {
+            // A region is a texel and a half about the receiver. Half a texel of it, a hundredth for rounding, and a step of
+            // this grid, so that no corner of the shadow slips between; then along the ray to the ground.
             const vec3 across =
-                (static_cast<float>(s) * region.a_ws + static_cast<float>(t) * region.b_ws) * (0.51F / 1.5F / 4);
+                (static_cast<float>(s) * region.a_ws + static_cast<float>(t) * region.b_ws) * (0.575F / 1.5F / 8);
             const vec3 q_ws = p_ws + across - ray_ws * (across.y / ray_ws.y);
             const auto v = static_cast<float>(*scenes::box_visibility(point, {&floating, 1}, dvec3(q_ws)));
             range.low = std::min(range.low, v);

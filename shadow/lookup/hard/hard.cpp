@@ -15,6 +15,7 @@ const Part& lookup_hard() {
         p.citation = "Wil78";
         p.needs = {"depth"};
         p.optional = {"ids"};
+        p.sides = {{"blocker-distance", "m", "How far along the light's depth what hides a sample lies before it."}};
         p.glsl = "shadow/lookup/hard/hard.glsl";
         return p;
     }();

@@ -22,6 +22,15 @@ float gn_hard_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids) 
 #endif
     return lit ? 1.0 : 0.0;
 }
+
+// Metres along the view's depth from the receiver to what its texel holds; 0 where that does not hide it.
+float gn_hard_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray ids) {
+    if (gn_hard_visibility(at, depth, ids) > 0.0) {
+        return 0.0;
+    }
+    ivec2 texel = ivec2(floor(at.projected.uv_ts / at.projected.texel_ts));
+    return max(at.projected.depth - gn_map_texel(depth, at, texel).r, 0.0) * at.view.metres_per_depth;
+}
 #endif
 
 #endif
