@@ -23,7 +23,6 @@ struct FrameGraph::Impl {
     std::vector<std::shared_ptr<const void>> objects;  ///< that passes use
     std::string group;
     Rounds texture_rounds, buffer_rounds;
-    std::vector<std::shared_ptr<const void>> owned;
 
     GraphPlan plan;
     bool stale = true;  ///< declarations changed since the plan was made
@@ -135,10 +134,6 @@ void FrameGraph::next_round() {
 void FrameGraph::end_rounds() {
     impl_->texture_rounds.end();
     impl_->buffer_rounds.end();
-}
-
-void FrameGraph::own(std::shared_ptr<const void> held) {
-    impl_->owned.push_back(std::move(held));
 }
 
 TextureHandle FrameGraph::import(Texture2D& texture) {

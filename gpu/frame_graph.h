@@ -189,8 +189,6 @@ class FrameGraph {
     void begin_rounds();
     void next_round();
     void end_rounds();
-    /// Keeps what passes point to for as long as the graph lives.
-    void own(std::shared_ptr<const void> held);
 
     /// Names the group that following passes and resources belong to ("scene", "shadow", "shading").
     void group(std::string name);

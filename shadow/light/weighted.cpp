@@ -125,7 +125,7 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
     graph.end_rounds();
 
     // Passes point to the lights: they live as long as the graph.
-    graph.own(lights);
+    graph.hold(lights);
     const Visibility result{create_visibility(graph, input.samples, channels)};
     ShaderInputs inputs = inputs_of(input);
     inputs.image(image_format(sums_format(channels)), "readonly", "image2D", "sums", sums);
