@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/embed/host.h"
 
-#include <new>
-
 namespace gn::host {
 
 struct Session::State {
@@ -10,24 +8,6 @@ struct Session::State {
     std::optional<Scene> scene;
     std::optional<SceneGpu> uploaded;
 };
-
-namespace {
-
-/// Runs `work`; what it throws becomes a sentence.
-template <class T, class Work>
-Result<T> guarded(Work&& work) noexcept {
-    try {
-        return work();
-    } catch (const std::bad_alloc&) {
-        return Result<T>::failure("out of memory");
-    } catch (const std::exception& error) {
-        return Result<T>::failure(error.what());
-    } catch (...) {
-        return Result<T>::failure("something unknown was thrown inside the library");
-    }
-}
-
-}  // namespace
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Session::Session(Session&&) noexcept = default;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library's public boundary: what a foreign renderer calls. No exception leaves it; every failure is one sentence.
+// The offline session: it takes a scene, draws the view itself, waits and reads back. A renderer that has its own frame
+// records through shadow/embed/embed.h instead. No exception leaves it; every failure is one sentence.
 // Only a broken invariant of the library's own (GN_CHECK) prints its values and aborts.
 //
 //     auto session = gn::host::Session::adopt({.instance = ..., .device = ..., .queue = ...});
@@ -9,39 +10,16 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "shadow/embed/result.h"
 #include "shadow/frame/frame.h"
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 
 namespace gn::host {
 
-/// A value, or one sentence why there is none. Whoever drops one misses that sentence.
-template <class T>
-class [[nodiscard]] Result {
-  public:
-    Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): returned by value
-    static Result failure(std::string why) {
-        Result result;
-        result.why_ = std::move(why);
-        return result;
-    }
-    [[nodiscard]] bool ok() const { return value_.has_value(); }
-    /// Only where ok().
-    [[nodiscard]] T& value() { return *value_; }
-    [[nodiscard]] const T& value() const { return *value_; }
-    [[nodiscard]] const std::string& why() const { return why_; }
-
-  private:
-    Result() = default;
-    std::optional<T> value_;
-    std::string why_;
-};
-
-/// Nothing, where only success matters.
-struct Done {};
+using gn::Done;
+using gn::Result;
 
 /// A device and a scene on it. Not thread-safe; the host keeps its queue to itself while a call runs.
 class Session {

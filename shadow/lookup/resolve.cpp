@@ -162,7 +162,12 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
 /// All that a recipe's resolve shader depends on from light to light.
 std::uint64_t shader_key(const Recipe& recipe, const LightViews& views, const ShaderInputs& inputs) {
     Hasher hasher;
-    hasher.text(views.part->id).text(recipe.map->id).text(recipe.lookup->id).text(receiver_defines(recipe, views)).value(views.crosses).value(views.views.size());
+    hasher.text(views.part->id)
+        .text(recipe.map->id)
+        .text(recipe.lookup->id)
+        .text(receiver_defines(recipe, views))
+        .value(views.crosses)
+        .value(views.views.size());
     inputs.hash(hasher);
     return hasher.finish().low;
 }

@@ -71,6 +71,8 @@ class Part {
     std::vector<Feature> features;  ///< without which the part is refused
     /// Further features that its parameters ask for; may be null.
     std::vector<Feature> (*features_for)(const Recipe&) = nullptr;
+    /// It reads triangles on the CPU, or the view's depth and materials: a renderer that lends its buffers brings neither.
+    bool needs_scene = false;
     ParamTable params;
     std::string_view params_type;  ///< GLSL and C++ name of the struct: "GnPcfParams"; "" when there are none
     std::string_view glsl;         ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none

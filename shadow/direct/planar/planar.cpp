@@ -236,6 +236,7 @@ const Part& direct_planar() {
         p.title = "Planar shadows";
         p.citation = "Bli88";
         p.features = {Feature::depth32_stencil8};
+        p.needs_scene = true;
         p.params = param_table<GnPlanarParams>({
             GN_PARAM(GnPlanarParams, planes, integer, 1, 64, "",
                      "More flat receivers get shadows, each for one more drawing of all casters."),

@@ -50,6 +50,7 @@ const Part& direct_volumes() {
         p.title = "Shadow volumes, z-fail";
         p.citation = "EK02";
         p.features = {Feature::float32_blend};
+        p.needs_scene = true;
         p.params = param_table<GnVolumesParams>({
             GN_CHOICE(GnVolumesParams, masked,
                       "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),

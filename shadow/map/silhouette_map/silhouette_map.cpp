@@ -64,6 +64,7 @@ const Part& map_silhouette_map() {
         p.citation = "SCH03";
         p.solid_only = true;
         p.gives = {"silhouettes"};
+        p.needs_scene = true;
         p.add_map = add_silhouette_map;
         p.refuses = refuses;
         return p;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/embed/embed.h"
+
+#include "gpu/frames.h"
+#include "shadow/embed/lent_casters.h"
+#include "shadow/embed/lent_images.h"
+#include "shadow/embed/lent_receivers.h"
+#include "shadow/frame/frame.h"
+#include "shadow/frame/history.h"
+#include "shadow/recipe/check_recipe.h"
+
+namespace gn::embed {
+namespace {
+
+/// Throws Error naming the recipe's parts that read more than casters' buffers and receivers.
+void check_parts(const Recipe& recipe) {
+    for (const Part* part : recipe.parts()) {
+        if (part->needs_scene) {
+            fail(
+                "{} '{}' reads the scene on the CPU, which a renderer's buffers do not bring; gn::host::Session in "
+                "shadow/embed/host.h draws with it",
+                stage_names[static_cast<std::size_t>(part->stage)], part->id);
+        }
+    }
+    if (recipe.casters == Casters::ids) {
+        fail(
+            "casters=ids compares object ids of the view's samples, which a renderer's depth and normals do not bring; "
+            "valid "
+            "here are all, front, back, midpoint and dual");
+    }
+}
+
+void memory_barrier(VkCommandBuffer commands) {
+    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+struct Shadows::State {
+    State(std::unique_ptr<Device> adopted, const Info& asked)
+        : info(asked),
+          device(std::move(adopted)),
+          frames(*device, info.limits.frames_in_flight),
+          images(*device, frames),
+          casters(*device) {}
+
+    Info info;
+    std::unique_ptr<Device> device;
+    std::shared_ptr<const PreparedRecipe> recipe;
+    std::shared_ptr<History> history;
+    Frames frames;
+    LentImages images;
+    LentCasters casters;
+    std::set<std::string> late_remarks;
+
+    void prepare(const std::string& text);
+    std::vector<std::string> record(VkCommandBuffer commands, const Frame& frame);
+    void check(const Frame& frame) const;
+    std::vector<FrameLight> take_lights(const Frame& frame);
+};
+
+void Shadows::State::prepare(const std::string& text) {
+    Recipe loaded = load_recipe(text);
+    check_parts(loaded);
+    frames.retire(recipe);
+    recipe = std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
+    frames.retire(history);
+    history = std::make_shared<History>(*device);
+}
+
+void Shadows::State::check(const Frame& frame) const {
+    const Receivers& seen = frame.receivers;
+    const Limits& limits = info.limits;
+    if (seen.width == 0 || seen.height == 0 || seen.width > limits.width || seen.height > limits.height) {
+        fail("the frame's receivers are {} x {} pixels; the limits given to create allow 1 x 1 to {} x {}", seen.width,
+             seen.height, limits.width, limits.height);
+    }
+    if (frame.lights.size() > limits.lights) {
+        fail("the frame has {} lights; the limits given to create allow {}", frame.lights.size(), limits.lights);
+    }
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (frame.lights[i].id == frame.lights[j].id) {
+                fail("lights {} and {} of the frame have the same id {}; every light needs one of its own", j, i,
+                     frame.lights[i].id);
+            }
+        }
+    }
+}
+
+std::vector<FrameLight> Shadows::State::take_lights(const Frame& frame) {
+    Scene& scene = casters.scene();
+    scene.lights.resize(frame.lights.size());
+    std::vector<FrameLight> lights;
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        scene.lights[i].name = fmt::format("{}", frame.lights[i].id);
+        scene.lights[i].shape = frame.lights[i].shape;
+        lights.push_back({&scene.lights[i], frame.lights[i].id});
+    }
+    return lights;
+}
+
+std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
+    check(frame);
+    frames.begin(frame.slot);
+    images.begin(frame.receivers.width, frame.receivers.height);
+    if (frame.cut) {
+        frames.retire(history);
+        history = std::make_shared<History>(*device);
+    }
+    FrameGraph graph(*device);
+
+    // What the renderer lends.
+    graph.group("lent");
+    const SceneHandles geometry = casters.add(graph, frames, frame.casters);
+    const TextureHandle depth = images.import(graph, "depth", frame.receivers.depth, VK_IMAGE_USAGE_SAMPLED_BIT);
+    const TextureHandle normals =
+        info.receivers.normals != Normals::none
+            ? images.import(graph, "normals", frame.receivers.normals, VK_IMAGE_USAGE_SAMPLED_BIT)
+            : TextureHandle{};
+    const ViewSamples receivers =
+        add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals, frame.casters.bounds_ws);
+
+    // The shadows.
+    const std::vector<FrameLight> lights = take_lights(frame);
+    const std::vector<LightShadow> shadows =
+        add_frame(graph, receivers, {casters.scene(), geometry}, lights, *recipe, history.get(), &late_remarks);
+
+    // What it gets.
+    graph.group("lent");
+    std::vector<std::string> refused;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const TextureHandle target =
+            images.import(graph, "visibility", frame.lights[i].visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target);
+        refused.push_back(shadows[i].refused);
+    }
+
+    memory_barrier(commands);
+    graph.record(frames, commands);
+    images.give_back(commands);
+    history->advance();
+    return refused;
+}
+
+Shadows::Shadows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Shadows::Shadows(Shadows&&) noexcept = default;
+Shadows& Shadows::operator=(Shadows&&) noexcept = default;
+Shadows::~Shadows() = default;
+
+Result<Shadows> Shadows::create(const Info& info) noexcept {
+    return guarded<Shadows>([&] {
+        auto state = std::make_unique<State>(Device::adopt(info.device), info);
+        state->prepare(info.recipe);
+        return Shadows(std::move(state));
+    });
+}
+
+Result<Done> Shadows::set_recipe(const std::string& recipe) noexcept {
+    return guarded<Done>([&] {
+        state_->prepare(recipe);
+        return Done{};
+    });
+}
+
+void Shadows::forget_images() noexcept {
+    (void)guarded<Done>([&] {
+        state_->images.forget();
+        return Done{};
+    });
+}
+
+std::string Shadows::refuses(const GnLight& light) const noexcept {
+    const Result<Done> checked = guarded<Done>([&] {
+        Scene scene;
+        scene.materials.emplace_back();
+        scene.lights = {Light{.name = "asked", .shape = light}};
+        check_recipe(state_->recipe->recipe(), scene, scene.lights.front(), *state_->device);
+        return Done{};
+    });
+    return checked.ok() ? "" : checked.why();
+}
+
+Result<std::vector<std::string>> Shadows::record(VkCommandBuffer commands, const Frame& frame) noexcept {
+    auto recorded = guarded<std::vector<std::string>>([&] { return state_->record(commands, frame); });
+    if (!recorded.ok()) {
+        state_->casters.forget();
+    }
+    return recorded;
+}
+
+GraphStatistics Shadows::completed(std::uint32_t slot) const noexcept {
+    const auto asked = guarded<GraphStatistics>([&] { return state_->frames.completed(slot); });
+    return asked.ok() ? asked.value() : GraphStatistics{};
+}
+
+std::vector<std::string> Shadows::remarks() const noexcept {
+    const auto asked = guarded<std::vector<std::string>>(
+        [&] { return std::vector<std::string>(state_->late_remarks.begin(), state_->late_remarks.end()); });
+    return asked.ok() ? asked.value() : std::vector<std::string>{};
+}
+
+Counters Shadows::counters() const noexcept {
+    return state_->device->counters();
+}
+
+}  // namespace gn::embed

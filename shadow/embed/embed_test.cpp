@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// The boundary that a renderer records through: V against the truth of its own samples, layouts, what a steady sequence makes,
+// movement, mistakes.
+#include "shadow/embed/embed.h"
+
+#include "tests/lent_renderer.h"
+
+namespace gn::embed {
+namespace {
+
+using test::device;
+
+Result<Shadows> make(const std::string& recipe, const ReceiverForm& form = {}, const Limits& limits = {}) {
+    static const test::LentDevice lent;
+    return Shadows::create({.device = lent.adopted(), .recipe = recipe, .limits = limits, .receivers = form});
+}
+
+/// Records a frame, waits, and gives what the light were refused for.
+std::vector<std::string> run(Shadows& shadows, const Frame& frame) {
+    std::vector<std::string> refused;
+    device().run([&](VkCommandBuffer commands) {
+        const auto recorded = shadows.record(commands, frame);
+        EXPECT_TRUE(recorded.ok()) << recorded.why();
+        refused = recorded.ok() ? recorded.value() : std::vector<std::string>{};
+    });
+    return refused;
+}
+
+struct Judged {
+    std::size_t counted = 0, wrong = 0, lit = 0, dark = 0;
+};
+
+/// V against one ray a sample, away from the edges of shadows.
+Judged judge(const test::LentRenderer& renderer, const std::vector<float>& v, std::size_t light) {
+    const TruthResult truth = Truth(renderer.scene)
+                                  .trace(renderer.seen.position_ws, renderer.seen.normal_ws,
+                                         renderer.scene.lights[light].shape, {.samples = 1});
+    const auto edges = edge_pixels(truth.visibility, truth.counted, static_cast<int>(renderer.seen.width),
+                                   static_cast<int>(renderer.seen.height));
+    Judged judged;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        if (truth.counted[i] == 0 || edges[i] != 0) {
+            continue;
+        }
+        ++judged.counted;
+        judged.wrong += v[i] != truth.visibility[i] ? 1 : 0;
+        ++(truth.visibility[i] > 0.5F ? judged.lit : judged.dark);
+    }
+    return judged;
+}
+
+/// The scene with points for lights, so that one ray is the truth.
+Scene hard_lit(const std::string& name) {
+    Scene scene = load_scene(name);
+    for (Light& light : scene.lights) {
+        light.shape.radius = light.shape.angular_radius = 0;
+        light.shape.half_size = vec2(0);
+    }
+    return scene;
+}
+
+TEST(Embed, DepthAndNormalsOfARendererGiveTheTracedShadow) {
+    const test::ValidationGuard guard;
+    for (const char* name : {"contact", "stack"}) {
+        for (const char* recipe : {"hard,resolution=2048", "hard,resolution=1024,placement=cascades"}) {
+            test::LentRenderer renderer(hard_lit(name), 160, 120);
+            Result<Shadows> shadows = make(recipe);
+            ASSERT_TRUE(shadows.ok()) << shadows.why();
+            EXPECT_EQ(run(shadows.value(), renderer.frame()), std::vector<std::string>{""});
+            const Judged judged = judge(renderer, renderer.visibility(0), 0);
+            // A texel of the map is smaller than a pixel here, so that only edges can differ.
+            EXPECT_EQ(judged.wrong, 0U) << recipe << " on " << name << ", of " << judged.counted;
+            EXPECT_GT(judged.lit, 5000U);
+            EXPECT_GT(judged.dark, 200U);
+        }
+    }
+}
+
+TEST(Embed, LightsOfEveryKindComeInAnyOrder) {
+    const test::ValidationGuard guard;
+    test::LentRenderer renderer(hard_lit("courtyard"), 160, 90);
+    Result<Shadows> shadows = make("pcf,placement=cascades");
+    ASSERT_TRUE(shadows.ok()) << shadows.why();
+    Frame frame = renderer.frame();
+    run(shadows.value(), frame);
+    std::vector<std::vector<float>> first;
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        first.push_back(renderer.visibility(i));
+        EXPECT_GT(*std::max_element(first[i].begin(), first[i].end()), 0.5F) << i;
+        EXPECT_EQ(*std::min_element(first[i].begin(), first[i].end()), 0.0F) << i;
+    }
+    frame = renderer.frame();
+    const std::vector<LentLight> turned(frame.lights.rbegin(), frame.lights.rend());
+    frame.lights = turned;
+    run(shadows.value(), frame);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(renderer.visibility(i), first[i]) << "light " << i << " in another order";
+    }
+}
+
+TEST(Embed, ASteadySequenceCreatesNothing) {
+    const test::ValidationGuard guard;
+    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    Result<Shadows> made = make("pcf,placement=cascades");
+    ASSERT_TRUE(made.ok()) << made.why();
+    Shadows& shadows = made.value();
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        ++renderer.poses;
+        run(shadows, renderer.frame(i % 2));
+    }
+    const Counters before = shadows.counters();
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        ++renderer.poses;
+        run(shadows, renderer.frame(i % 2));
+    }
+    EXPECT_EQ(shadows.counters(), before);
+    EXPECT_GT(shadows.completed(0).passes.size(), 2U);
+}
+
+TEST(Embed, CastersMoveWithTheirTransforms) {
+    const test::ValidationGuard guard;
+    // The floor stays; everything else moves aside by a metre, on the device alone.
+    test::LentRenderer renderer(hard_lit("contact"), 160, 120);
+    Result<Shadows> shadows = make("hard,resolution=2048");
+    ASSERT_TRUE(shadows.ok()) << shadows.why();
+    run(shadows.value(), renderer.frame());
+    const std::vector<float> before = renderer.visibility(0);
+    std::vector<mat4> poses(renderer.objects.size(), mat4(1));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Box& box = renderer.scene.objects[i].bounds_ws;
+        poses[i] = box.max.y - box.min.y > 1e-3F ? glm::translate(mat4(1), vec3(0, 50, 0)) : mat4(1);
+    }
+    write_buffer(device(), renderer.transforms, std::as_bytes(std::span(poses)));
+    run(shadows.value(), renderer.frame());
+    EXPECT_EQ(renderer.visibility(0), before) << "the same number of poses: what is kept may stay";
+    ++renderer.poses;
+    renderer.scene.bounds_ws.grow(vec3(0, 60, 0));
+    run(shadows.value(), renderer.frame());
+    const std::vector<float> after = renderer.visibility(0);
+    std::size_t became_lit = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const vec4 p = renderer.seen.position_ws[i];
+        became_lit += p.w > 0 && before[i] == 0 && after[i] == 1 ? 1 : 0;
+    }
+    EXPECT_GT(became_lit, 100U);
+}
+
+TEST(Embed, NormalsMayComeFromDepth) {
+    const test::ValidationGuard guard;
+    test::LentRenderer renderer(hard_lit("stack"), 160, 120);
+    Result<Shadows> shadows = make("hard,resolution=2048", {.normals = Normals::none});
+    ASSERT_TRUE(shadows.ok()) << shadows.why();
+    run(shadows.value(), renderer.frame());
+    const Judged judged = judge(renderer, renderer.visibility(0), 0);
+    // At the rim of a surface one pixel wide no neighbour lies on it.
+    EXPECT_LT(judged.wrong, judged.counted / 500) << judged.counted;
+    EXPECT_GT(judged.dark, 200U);
+}
+
+TEST(Embed, MistakesAreSentences) {
+    EXPECT_NE(Shadows::create({}).why(), "");
+    EXPECT_NE(make("pfc").why().find("pcf"), std::string::npos);
+    EXPECT_NE(make("volumes").why().find("'volumes'"), std::string::npos) << make("volumes").why();
+    EXPECT_NE(make("hard,casters=ids").why().find("casters=ids"), std::string::npos);
+
+    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    Result<Shadows> made = make("hard,placement=paraboloid", {}, {.width = 96, .height = 64, .lights = 1});
+    ASSERT_TRUE(made.ok()) << made.why();
+    Shadows& shadows = made.value();
+    const auto why = [&](const Frame& frame) {
+        std::string sentence;
+        device().run([&](VkCommandBuffer commands) { sentence = shadows.record(commands, frame).why(); });
+        return sentence;
+    };
+    Frame frame = renderer.frame();
+    frame.slot = 7;
+    EXPECT_NE(why(frame), "");
+    frame = renderer.frame();
+    frame.receivers.width = 97;
+    EXPECT_NE(why(frame).find("97 x 64"), std::string::npos) << why(frame);
+    frame = renderer.frame();
+    frame.receivers.depth.image = VK_NULL_HANDLE;
+    EXPECT_NE(why(frame).find("depth"), std::string::npos) << why(frame);
+    frame = renderer.frame();
+    frame.receivers.cs_from_ws = mat4(0);
+    EXPECT_NE(why(frame).find("matrix"), std::string::npos) << why(frame);
+    frame = renderer.frame();
+    frame.casters.topology = 2;
+    frame.casters.indices.bytes = 12;
+    EXPECT_NE(why(frame).find("caster object"), std::string::npos) << why(frame);
+
+    // A light that the recipe does not serve is refused by itself, and lit.
+    EXPECT_NE(shadows.refuses(renderer.scene.lights.front().shape).find("paraboloid"), std::string::npos);
+    const std::vector<std::string> refused = run(shadows, renderer.frame());
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_NE(refused.front().find("paraboloid"), std::string::npos) << refused.front();
+    const std::vector<float> v = renderer.visibility(0);
+    EXPECT_EQ(std::count(v.begin(), v.end(), 1.0F), static_cast<std::ptrdiff_t>(v.size()));
+}
+
+}  // namespace
+}  // namespace gn::embed
