@@ -109,6 +109,7 @@ TEST_F(Devices, AHostsDeviceWithoutARequiredFeatureIsRefusedByItsName) {
     const std::string error = error_of([&] { Device::adopt(host.lent()); });
     EXPECT_NE(error.find("depthClamp"), std::string::npos) << error;
     EXPECT_NE(error.find("scalarBlockLayout"), std::string::npos) << error;
+    EXPECT_NE(error.find("maintenance4"), std::string::npos) << error;
     EXPECT_EQ(error.find("synchronization2"), std::string::npos) << error;
     EXPECT_EQ(error.find("geometryShader"), std::string::npos) << error;
 }
@@ -120,11 +121,13 @@ TEST_F(Devices, AHostMayNameFeaturesOneByOneButMustNameThem) {
 
     // One struct a feature instead of one a version.
     VkPhysicalDeviceScalarBlockLayoutFeatures scalar{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
+    VkPhysicalDeviceMaintenance4Features sizes{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES, &scalar};
     VkPhysicalDeviceSynchronization2Features barriers{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
-                                                      &scalar};
+                                                      &sizes};
     VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
                                                        &barriers};
-    scalar.scalarBlockLayout = barriers.synchronization2 = rendering.dynamicRendering = VK_TRUE;
+    scalar.scalarBlockLayout = sizes.maintenance4 = VK_TRUE;
+    barriers.synchronization2 = rendering.dynamicRendering = VK_TRUE;
     const VkPhysicalDeviceFeatures2 one_by_one{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &rendering,
                                                chain.core.features};
     AdoptedDevice host{device.instance(),     device.physical(), device.vk(), device.queue(),

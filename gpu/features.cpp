@@ -40,6 +40,7 @@ struct Required {
 const std::array required_features{
     GN_REQUIRED(v13, dynamicRendering),
     GN_REQUIRED(v13, synchronization2),
+    GN_REQUIRED(v13, maintenance4),  // SPIR-V 1.6 says a workgroup's size in the way that this allows
     GN_REQUIRED(v12, scalarBlockLayout),
     GN_REQUIRED(core.features, geometryShader),
     GN_REQUIRED(core.features, depthClamp),
@@ -70,7 +71,6 @@ const std::array wanted_features{
     GN_REQUIRED(v12, shaderOutputViewportIndex),
     GN_REQUIRED(v12, samplerFilterMinmax),
     GN_REQUIRED(v12, hostQueryReset),
-    GN_REQUIRED(v13, maintenance4),
     GN_REQUIRED(v13, shaderDemoteToHelperInvocation),
 };
 #undef GN_REQUIRED
@@ -303,6 +303,9 @@ void read_chain(const VkPhysicalDeviceFeatures2& host, FeatureChain& chain) {
                 break;
             case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
                 chain.v13.synchronization2 = copy_of<VkPhysicalDeviceSynchronization2Features>(s).synchronization2;
+                break;
+            case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
+                chain.v13.maintenance4 = copy_of<VkPhysicalDeviceMaintenance4Features>(s).maintenance4;
                 break;
             case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
                 chain.v12.scalarBlockLayout = copy_of<VkPhysicalDeviceScalarBlockLayoutFeatures>(s).scalarBlockLayout;
