@@ -1,106 +1,42 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""examples/embed, built against an installed copy of a build and run: what a foreign renderer would do.
+"""examples/embed, built against an installed copy of a build and run: what foreign renderers do.
 
     tests/embed_test.py build/release
 
-The wall shows the camera its dark side and throws a shadow of 2 x 2 metres: which pixels are lit is known one by one, but for
-those on an edge. A result that is dropped does not compile.
+offline hands over a scene: which of its pixels are lit is known one by one, but for those on an edge; embed_c, in C, lends
+depth of the same. embed records Gnomon's shadows into frames of its own, under validation, on devices that go without a
+feature; V on the open ground is known likewise. A result that is dropped does not compile.
 """
 
-import math
 import os
 import pathlib
+import re
 import shutil
-import struct
 import subprocess
 import sys
-import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.dont_write_bytecode = True
+from embed_pictures import clearing_pictures, compare, read_pgm, read_png, wall_picture  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# What Gnomon uses where it is enabled: each is left out alone, then all at once with what only widens its shaders' words.
+OPTIONAL = ("samplerAnisotropy", "shaderOutputLayer", "shaderFloat64", "multiDrawIndirect", "drawIndirectFirstInstance")
+WIDENING = ("shaderStorageImageReadWithoutFormat", "shaderStorageImageExtendedFormats", "shaderImageGatherExtended",
+            "shaderClipDistance", "samplerFilterMinmax", "hostQueryReset", "shaderDemoteToHelperInvocation",
+            "shaderDrawParameters")
+REQUIRED = ("dynamicRendering", "synchronization2", "maintenance4", "scalarBlockLayout", "geometryShader", "depthClamp",
+            "independentBlend", "imageCubeArray")
+SIZE = (192, 108)
 
 
-def run(*command, **options):
+def run(*command, status=0, **options):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-    if done.returncode != 0:
-        sys.exit(f"'{' '.join(str(word) for word in command)}' ended with status {done.returncode}\n"
+    if done.returncode != status:
+        sys.exit(f"'{' '.join(str(word) for word in command)}' ended with status {done.returncode}, not {status}\n"
                  f"{done.stdout[-4000:]}{done.stderr[-4000:]}")
-    return done.stdout
-
-
-def expected_picture(width=320, height=240, yfov=0.9):
-    """What the example's scene shows by intersecting each pixel's ray: "lit", "dark" (or nothing there, which has no light
-    either), or None where an edge of wall, floor or shadow is so near that the map's texels and the rasterizer decide."""
-    length = math.hypot(5, 7)
-    ahead, above = (-5 / length, -7 / length), (7 / length, -5 / length)  # the camera's axes: y and z; x is the world's
-    tangent = math.tan(yfov / 2)
-    # The map's 2048 texels span the eight by eight metres of floor, seen at 45 degrees, and the wall: below 8 mm each. The
-    # kernel reaches two and the normal bias a quarter of one to each side.
-    reach = 0.02
-
-    def wall_at(x, y):
-        return abs(x) <= 1 and 0 <= y <= 2
-
-    def floor_at(x, z):
-        if abs(x) > 4 or abs(z) > 4:
-            return "dark"
-        return "dark" if abs(x) < 1 and 0 < z < 2 else "lit"
-
-    def seen(column, row):
-        x = (2 * (column + 0.5) / width - 1) * tangent * width / height
-        y = (1 - 2 * (row + 0.5) / height) * tangent
-        dy, dz = ahead[0] + y * above[0], ahead[1] + y * above[1]
-        around = [(-1, -1), (1, -1), (-1, 1), (1, 1)]
-        wall = -7 / dz if dz < 0 else -1
-        hits = {wall > 0 and wall_at(x * wall + i * 1e-3, 5 + dy * wall + k * 1e-3) for i, k in around}
-        if hits == {True}:
-            return "dark"
-        floor = -5 / dy if dy < 0 else -1
-        kinds = {floor_at(x * floor + i * reach, 7 + dz * floor + k * reach) if floor > 0 else "dark" for i, k in around}
-        return kinds.pop() if hits == {False} and len(kinds) == 1 else None
-
-    return [[seen(column, row) for column in range(width)] for row in range(height)]
-
-
-def read_png(path):
-    """Rows of the first channel of an 8-bit PNG, 0 to 255."""
-    data = path.read_bytes()
-    packed, at = b"", 8
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-        packed += body if kind == b"IDAT" else b""
-        at += 12 + size
-    channels = {0: 1, 2: 3, 4: 2, 6: 4}[colour]
-    if depth != 8:
-        sys.exit(f"{path} has {depth} bits a channel; 8 are expected")
-    raw, stride, above, rows = zlib.decompress(packed), width * channels, bytes(width * channels), []
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            left = line[i - channels] if i >= channels else 0
-            up, corner = above[i], above[i - channels] if i >= channels else 0
-            paeth = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))[2]
-            line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[kind]) & 255
-        above = bytes(line)
-        rows.append(line[::channels])
-    return rows
-
-
-def compare(picture, expected):
-    """Fails unless every pixel that an edge does not decide is what the geometry says; returns how many those are."""
-    wrong, decided = [], 0
-    for y, row in enumerate(expected):
-        for x, kind in enumerate(row):
-            if kind is not None:
-                decided += 1
-                if picture[y][x] != (255 if kind == "lit" else 0):
-                    wrong.append(f"({x}, {y}) is {picture[y][x]} and should be {kind}")
-    if wrong:
-        sys.exit(f"{len(wrong)} of {decided} pixels are wrong: {'; '.join(wrong[:5])}")
-    return decided
+    return done.stdout if status == 0 else done.stderr
 
 
 def refuses_dropped_results(prefix):
@@ -115,31 +51,84 @@ def refuses_dropped_results(prefix):
             sys.exit(f"'{use}' {'does not compile' if compiles else 'compiles'}: {done.stderr[:1000]}")
 
 
+def build_examples(build, folder):
+    """Far from the source tree's includes, so that only the installed ones can be found."""
+    shutil.rmtree(folder / "prefix", ignore_errors=True)
+    run("cmake", "--install", build, "--prefix", folder / "prefix")
+    for name in ("embed", "embed_c"):
+        source, binary = folder / "source" / name, folder / "build" / name
+        shutil.rmtree(source, ignore_errors=True)
+        shutil.copytree(ROOT / "examples" / name, source)
+        run("cmake", "-G", "Ninja", "-S", source, "-B", binary, f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
+            "-DCMAKE_BUILD_TYPE=Release")
+        run("cmake", "--build", binary)
+
+
+def wall_and_floor(folder, environment):
+    """Both ways to the same picture: a scene handed over, and depth lent from C."""
+    said = run(folder / "build" / "embed" / "offline", folder / "shadow.png", cwd=folder, env=environment)
+    # Edges are lines: the floor's outline, the wall's and the shadow's are some 1500 pixels long.
+    decided = compare("shadow.png", read_png(folder / "shadow.png"), wall_picture(rim=False), 5000)
+    if decided < 0.95 * 320 * 240:
+        sys.exit(f"only {decided} pixels of shadow.png lie off the edges; the test has nothing to compare")
+    print(f"{said.strip()}; {decided} compared one by one")
+    said = run(folder / "build" / "embed_c" / "embed_c", folder / "shadow.pgm", "--validate", cwd=folder, env=environment)
+    compare("shadow.pgm", read_pgm(folder / "shadow.pgm"), wall_picture(rim=True), 5000)
+    print(said.strip())
+
+
+class Renderer:
+    """Runs of the renderer under validation, in a small picture with few objects."""
+
+    def __init__(self, folder, environment):
+        self.folder, self.environment = folder, environment
+
+    def run(self, *more, status=0):
+        return run(self.folder / "build" / "embed" / "embed", "--validate", "--size", f"{SIZE[0]}x{SIZE[1]}", "--objects", 60,
+                   "--frames", 12, "--visibility", "--output", self.folder / "embed.png", *more, status=status,
+                   cwd=self.folder, env=self.environment)
+
+    def holds(self, *more):
+        """Nothing was said, nothing created in steady frames, passes were timed, V is right; gives what it printed."""
+        said = self.run(*more)
+        for fact in ("frames: 12, 60 moving objects", "created in 6 steady frames: nothing", "validation: 0 messages"):
+            if fact not in said:
+                sys.exit(f"embed {' '.join(more)} did not say '{fact}' but: {said}")
+        if not re.search(r"^passes:( '[^']+'){8}", said, re.M):
+            sys.exit(f"embed {' '.join(more)} names too few passes: {said}")
+        number = r"(-?[\d.]+)"
+        camera = re.search(rf"camera: {number} {number} {number} to {number} {number} {number}, yfov {number}", said)
+        eye_and_target = [float(text) for text in camera.groups()]
+        expected = clearing_pictures(*SIZE, eye_and_target[:3], eye_and_target[3:6], eye_and_target[6])
+        for light, picture in zip(("sun", "lamp"), expected):
+            name = f"embed-{light}.png"
+            compare(name, read_png(self.folder / name), picture, 50)
+        return said
+
+    def refuses(self, word, *more, status=2):
+        said = self.run(*more, status=status)
+        if len(said.strip().splitlines()) != 1 or word not in said:
+            sys.exit(f"embed {' '.join(more)} should name '{word}' in one sentence, and said: {said}")
+
+
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     folder = build / "embed"
-    shutil.rmtree(folder / "prefix", ignore_errors=True)
-    run("cmake", "--install", build, "--prefix", folder / "prefix")
-
-    # Build far from the source tree's includes: only the installed ones can be found.
-    source = folder / "source"
-    shutil.rmtree(source, ignore_errors=True)
-    shutil.copytree(ROOT / "examples" / "embed", source)
-    run("cmake", "-G", "Ninja", "-S", source, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
-        "-DCMAKE_BUILD_TYPE=Release")
-    run("cmake", "--build", folder / "build")
-
+    build_examples(build, folder)
     refuses_dropped_results(folder / "prefix")
     environment = {key: value for key, value in os.environ.items() if key != "GNOMON_DATA"}
-    said = run(folder / "build" / "embed", folder / "shadow.png", cwd=folder, env=environment)
-    if not (folder / "shadow.png").exists():
-        sys.exit(f"the example wrote no picture; it said: {said}")
-    expected = expected_picture()
-    decided = compare(read_png(folder / "shadow.png"), expected)
-    # Edges are lines: the floor's outline, the wall's and the shadow's are some 1500 pixels long.
-    if decided < 0.95 * sum(len(row) for row in expected):
-        sys.exit(f"only {decided} pixels lie off the edges; the test has nothing to compare")
-    print(f"{said.strip()}; {decided} compared one by one")
+    wall_and_floor(folder, environment)
+
+    renderer = Renderer(folder, environment)
+    print(renderer.holds().strip())
+    for feature in OPTIONAL:
+        renderer.holds("--without", feature)
+    renderer.holds(*(word for feature in OPTIONAL + WIDENING for word in ("--without", feature)))
+    for feature in REQUIRED:
+        renderer.refuses(feature, "--without", feature)
+    renderer.refuses("'volumes'", "--recipe", "volumes")
+    renderer.refuses("samplerAnisotropy", "--without", "flying", status=1)
+    print(f"the same without {len(OPTIONAL + WIDENING)} features; refused without each of {len(REQUIRED)}")
 
 
 if __name__ == "__main__":

@@ -6,11 +6,18 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
+
+struct DeviceOptions {
+    bool validate = false;             ///< core and synchronization checks; messages are collected
+    std::vector<std::string> without;  ///< features that are not enabled, by Vulkan's names: "samplerAnisotropy"
+};
 
 /// An instance and a device with one queue, destroyed in the right order. Throws std::runtime_error without Vulkan 1.3.
 class HostDevice {
   public:
-    HostDevice();
+    explicit HostDevice(const DeviceOptions& options = {});
     ~HostDevice();
     HostDevice(const HostDevice&) = delete;
     HostDevice& operator=(const HostDevice&) = delete;
@@ -20,6 +27,7 @@ class HostDevice {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;
+    std::vector<std::string> messages;  ///< of validation
 
     // What the device was made with.
     VkPhysicalDeviceVulkan13Features features_13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -27,4 +35,9 @@ class HostDevice {
     VkPhysicalDeviceVulkan11Features features_11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &features_12};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features_11};
     std::array<const char*, 1> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+
+  private:
+    void make_instance(bool validate);
+    void make_device();
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
