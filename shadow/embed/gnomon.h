@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+/* The boundary of shadow/embed/embed.h for C11 and for whatever calls C: what there is said of types and calls holds here.
+ *
+ *     GnomonShadows* shadows = NULL;
+ *     const char* why = gnomon_create(&info, &shadows);
+ *     if (why) { puts(why); }
+ *     for (;;) {
+ *         ... draw depth and normals ...
+ *         why = gnomon_record(shadows, commands, &frame, NULL);
+ *         ... shade with the images of V, submit ...
+ *     }
+ *     gnomon_destroy(shadows);
+ *
+ * Functions that can fail give NULL or one sentence, which stays until the thread's next call. Vectors are world space, metres,
+ * y up; matrices are columns first. All that is zero is off, none or unset: nothing is chosen silently. */
+#ifndef GNOMON_H
+#define GNOMON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <vulkan/vulkan.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct GnomonShadows GnomonShadows;
+
+typedef enum GnomonNormals {
+    GNOMON_NORMALS_NONE = 0,
+    GNOMON_NORMALS_SIGNED_XYZ = 1,
+    GNOMON_NORMALS_UNSIGNED_XYZ = 2,
+    GNOMON_NORMALS_SIGNED_OCTAHEDRAL = 3,
+    GNOMON_NORMALS_UNSIGNED_OCTAHEDRAL = 4
+} GnomonNormals;
+
+typedef enum GnomonLightKind {
+    GNOMON_LIGHT_DIRECTIONAL = 0,
+    GNOMON_LIGHT_SPOT = 1,
+    GNOMON_LIGHT_POINT = 2,
+    GNOMON_LIGHT_RECTANGLE = 3
+} GnomonLightKind;
+
+/* The device that is lent, what was enabled in it, the recipe, the limits and the form of depth and normals. */
+typedef struct GnomonInfo {
+    size_t size; /* sizeof(GnomonInfo): a header of another version is refused */
+    VkInstance instance;
+    VkPhysicalDevice physical;
+    VkDevice device;
+    VkQueue queue;
+    uint32_t queue_family;
+    uint32_t extension_count;
+    const char* const* extensions;
+    const VkPhysicalDeviceFeatures2* features;
+    const char* recipe;
+    uint32_t width, height; /* most pixels */
+    uint32_t lights;        /* most lights */
+    uint32_t frames_in_flight;
+    GnomonNormals normals;
+    bool reversed_depth;
+} GnomonInfo;
+
+typedef struct GnomonImage {
+    VkImage image;
+    VkFormat format;
+    VkImageLayout before, after;
+} GnomonImage;
+
+typedef struct GnomonBuffer {
+    VkBuffer buffer;
+    VkDeviceSize offset, bytes;
+} GnomonBuffer;
+
+typedef struct GnomonObject {
+    uint32_t first_index, index_count;
+    uint32_t first_vertex, vertex_count;
+    bool single_sided;
+} GnomonObject;
+
+typedef struct GnomonLight {
+    uint64_t id; /* the same in every frame */
+    GnomonLightKind kind;
+    float position_ws[3];
+    float direction_ws[3];       /* unit: the way the light travels */
+    float right_ws[3], up_ws[3]; /* unit: a rectangle's axes */
+    float half_size[2];          /* of a rectangle along them */
+    float radius;                /* of a spot's disc or a point's ball, metres */
+    float angular_radius;        /* of a directional light, radians */
+    float cos_inner, cos_outer;  /* of a spot's cone */
+    float range;                 /* metres; 0: without end */
+    GnomonImage visibility;      /* where V goes */
+} GnomonLight;
+
+typedef struct GnomonFrame {
+    size_t size;                    /* sizeof(GnomonFrame) */
+    size_t object_size, light_size; /* sizeof(GnomonObject), sizeof(GnomonLight) */
+    uint32_t slot;
+    bool cut;
+
+    uint32_t width, height; /* of depth, normals and every V */
+    GnomonImage depth, normals;
+    float cs_from_ws[16];
+
+    GnomonBuffer positions, indices, transforms;
+    uint32_t stride; /* bytes from one position to the next */
+    uint32_t object_count, light_count;
+    const GnomonObject* objects;
+    const GnomonLight* lights;
+    float bounds_min_ws[3], bounds_max_ws[3];
+    uint64_t topology, poses;
+} GnomonFrame;
+
+typedef struct GnomonPass {
+    const char* name;
+    const char* group;
+    double ms;
+} GnomonPass;
+
+/* Objects that the device was asked for since the shadows were created. */
+typedef struct GnomonCounters {
+    uint64_t pipelines, samplers, images, buffers, views, allocations, pools;
+} GnomonCounters;
+
+const char* gnomon_create(const GnomonInfo* info, GnomonShadows** shadows);
+/* The device must have finished with every slot. NULL is allowed. */
+void gnomon_destroy(GnomonShadows* shadows);
+
+/* `refused`, when it is not NULL, has room for light_count pointers: why each light has no shadow, or NULL. They stay until the
+ * next gnomon_record. */
+const char* gnomon_record(GnomonShadows* shadows, VkCommandBuffer commands, const GnomonFrame* frame,
+                          const char** refused);
+
+/* Why the recipe serves no such light, or NULL. */
+const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* light);
+const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe);
+void gnomon_forget_images(GnomonShadows* shadows);
+
+/* Passes of the slot's last completed use; they stay until the next call of this function. Gives their number. */
+uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPass** passes);
+GnomonCounters gnomon_counters(const GnomonShadows* shadows);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

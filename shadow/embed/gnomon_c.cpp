@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// The C header over the C++ one: structs are copied field by field, failures become a sentence of the thread's.
+#include "shadow/embed/gnomon.h"
+
+#include "shadow/embed/embed.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+using namespace gn;
+using namespace gn::embed;
+
+struct GnomonShadows {
+    Shadows shadows;
+    std::vector<std::string> refused;
+    GraphStatistics completed;
+    std::vector<GnomonPass> passes;
+};
+
+namespace {
+
+static_assert(static_cast<int>(Normals::none) == GNOMON_NORMALS_NONE);
+static_assert(static_cast<int>(Normals::signed_xyz) == GNOMON_NORMALS_SIGNED_XYZ);
+static_assert(static_cast<int>(Normals::unsigned_xyz) == GNOMON_NORMALS_UNSIGNED_XYZ);
+static_assert(static_cast<int>(Normals::signed_octahedral) == GNOMON_NORMALS_SIGNED_OCTAHEDRAL);
+static_assert(static_cast<int>(Normals::unsigned_octahedral) == GNOMON_NORMALS_UNSIGNED_OCTAHEDRAL);
+static_assert(GN_LIGHT_DIRECTIONAL == GNOMON_LIGHT_DIRECTIONAL && GN_LIGHT_SPOT == GNOMON_LIGHT_SPOT);
+static_assert(GN_LIGHT_POINT == GNOMON_LIGHT_POINT && GN_LIGHT_RECTANGLE == GNOMON_LIGHT_RECTANGLE);
+
+/// Runs `work`, whose failure becomes the thread's sentence.
+template <class Work>
+const char* sentence_of(Work&& work) noexcept {
+    thread_local std::string sentence;
+    const Result<Done> done = guarded<Done>([&] {
+        work();
+        return Done{};
+    });
+    if (done.ok()) {
+        return nullptr;
+    }
+    try {
+        sentence = done.why();
+    } catch (const std::bad_alloc&) {
+        return "out of memory";
+    }
+    return sentence.c_str();
+}
+
+void demand_size(const char* name, std::size_t given, std::size_t known) {
+    if (given != known) {
+        fail(
+            "a {} is {} bytes to the caller and {} to the library; set its size, and compile with the library's own "
+            "gnomon.h",
+            name, given, known);
+    }
+}
+
+template <class T>
+const T& given(const T* pointer, const char* name) {
+    if (pointer == nullptr) {
+        fail("{} is NULL, and must not be", name);
+    }
+    return *pointer;
+}
+
+/// The element of an array that may be missing.
+template <class T>
+const T& element(const T* array, std::uint32_t i, const char* name) {
+    return (&given(array, name))[i];
+}
+
+LentImage image_of(const GnomonImage& c) {
+    return {.image = c.image, .format = c.format, .before = c.before, .after = c.after};
+}
+
+LentBuffer buffer_of(const GnomonBuffer& c) {
+    return {.buffer = c.buffer, .offset = c.offset, .bytes = c.bytes};
+}
+
+vec4 vector_of(const float (&c)[3]) {
+    return {c[0], c[1], c[2], 0};
+}
+
+GnLight shape_of(const GnomonLight& c) {
+    GnLight light;
+    light.position_ws = vector_of(c.position_ws);
+    light.direction_ws = vector_of(c.direction_ws);
+    light.right_ws = vector_of(c.right_ws);
+    light.up_ws = vector_of(c.up_ws);
+    light.half_size = {c.half_size[0], c.half_size[1]};
+    light.kind = static_cast<uint>(c.kind);
+    light.radius = c.radius;
+    light.angular_radius = c.angular_radius;
+    light.cos_inner = c.cos_inner;
+    light.cos_outer = c.cos_outer;
+    light.range = c.range;
+    return light;
+}
+
+Info info_of(const GnomonInfo& c) {
+    Info info;
+    info.device = {.instance = c.instance,
+                   .physical = c.physical,
+                   .device = c.device,
+                   .queue = c.queue,
+                   .queue_family = c.queue_family,
+                   .features = c.features};
+    for (std::uint32_t i = 0; i < c.extension_count; ++i) {
+        info.device.extensions.push_back(&given(element(c.extensions, i, "extensions"), "an extension's name"));
+    }
+    info.recipe = &given(c.recipe, "the recipe");
+    info.limits = {.width = c.width, .height = c.height, .lights = c.lights, .frames_in_flight = c.frames_in_flight};
+    info.receivers = {.reversed_depth = c.reversed_depth, .normals = static_cast<Normals>(c.normals)};
+    return info;
+}
+
+CasterBuffers casters_of(const GnomonFrame& c, std::span<const CasterObject> objects) {
+    return {.positions = buffer_of(c.positions),
+            .stride = c.stride,
+            .indices = buffer_of(c.indices),
+            .transforms = buffer_of(c.transforms),
+            .objects = objects,
+            .bounds_ws = {vec3(vector_of(c.bounds_min_ws)), vec3(vector_of(c.bounds_max_ws))},
+            .topology = c.topology,
+            .poses = c.poses};
+}
+
+void record(GnomonShadows& self, VkCommandBuffer commands, const GnomonFrame& c) {
+    demand_size("GnomonFrame", c.size, sizeof(GnomonFrame));
+    demand_size("GnomonObject", c.object_size, sizeof(GnomonObject));
+    demand_size("GnomonLight", c.light_size, sizeof(GnomonLight));
+    std::vector<CasterObject> objects;
+    objects.reserve(c.object_count);
+    for (std::uint32_t i = 0; i < c.object_count; ++i) {
+        const GnomonObject& o = element(c.objects, i, "objects");
+        objects.push_back({o.first_index, o.index_count, o.first_vertex, o.vertex_count, o.single_sided});
+    }
+    std::vector<LentLight> lights;
+    for (std::uint32_t i = 0; i < c.light_count; ++i) {
+        const GnomonLight& light = element(c.lights, i, "lights");
+        lights.push_back({.id = light.id, .shape = shape_of(light), .visibility = image_of(light.visibility)});
+    }
+    auto recorded = self.shadows.record(commands, {.slot = c.slot,
+                                                   .cut = c.cut,
+                                                   .receivers = {.width = c.width,
+                                                                 .height = c.height,
+                                                                 .depth = image_of(c.depth),
+                                                                 .normals = image_of(c.normals),
+                                                                 .cs_from_ws = glm::make_mat4(c.cs_from_ws)},
+                                                   .casters = casters_of(c, objects),
+                                                   .lights = lights});
+    if (!recorded.ok()) {
+        throw Error(recorded.why());
+    }
+    self.refused = std::move(recorded.value());
+}
+
+}  // namespace
+
+const char* gnomon_create(const GnomonInfo* info, GnomonShadows** shadows) {
+    return sentence_of([&] {
+        demand_size("GnomonInfo", given(info, "info").size, sizeof(GnomonInfo));
+        if (shadows == nullptr) {
+            fail("shadows is NULL, and must say where the shadows go");
+        }
+        auto created = Shadows::create(info_of(*info));
+        if (!created.ok()) {
+            throw Error(created.why());
+        }
+        *shadows = new GnomonShadows{std::move(created.value()), {}, {}, {}};
+    });
+}
+
+void gnomon_destroy(GnomonShadows* shadows) {
+    delete shadows;
+}
+
+const char* gnomon_record(GnomonShadows* shadows, VkCommandBuffer commands, const GnomonFrame* frame,
+                          const char** refused) {
+    return sentence_of([&] {
+        given(shadows, "shadows");
+        record(*shadows, commands, given(frame, "frame"));
+        for (std::size_t i = 0; refused != nullptr && i < shadows->refused.size(); ++i) {
+            refused[i] = shadows->refused[i].empty() ? nullptr : shadows->refused[i].c_str();
+        }
+    });
+}
+
+const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* light) {
+    return sentence_of([&] {
+        const std::string why = given(shadows, "shadows").shadows.refuses(shape_of(given(light, "light")));
+        if (!why.empty()) {
+            throw Error(why);
+        }
+    });
+}
+
+const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe) {
+    return sentence_of([&] {
+        given(shadows, "shadows");
+        const Result<Done> done = shadows->shadows.set_recipe(&given(recipe, "the recipe"));
+        if (!done.ok()) {
+            throw Error(done.why());
+        }
+    });
+}
+
+void gnomon_forget_images(GnomonShadows* shadows) {
+    shadows->shadows.forget_images();
+}
+
+uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPass** passes) {
+    shadows->passes.clear();
+    const Result<Done> done = guarded<Done>([&] {
+        shadows->completed = shadows->shadows.completed(slot);
+        for (const PassTime& pass : shadows->completed.passes) {
+            shadows->passes.push_back({pass.name.c_str(), pass.group.c_str(), pass.ms});
+        }
+        return Done{};
+    });
+    *passes = shadows->passes.data();
+    return done.ok() ? static_cast<uint32_t>(shadows->passes.size()) : 0;
+}
+
+GnomonCounters gnomon_counters(const GnomonShadows* shadows) {
+    const Counters now = shadows->shadows.counters();
+    return {now.pipelines, now.samplers, now.images, now.buffers, now.views, now.allocations, now.pools};
+}
