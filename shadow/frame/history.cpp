@@ -46,6 +46,7 @@ void History::clear() {
     textures_.clear();
     pairs_.clear();
     values_.clear();
+    answers_.clear();
 }
 
 Texture2D& History::texture(const TextureDesc& desc, bool& fresh) {

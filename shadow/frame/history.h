@@ -58,9 +58,8 @@ class History {
     }
     /// A number of this name that the answers of frames write (FrameGraph::answer) and later frames read: 0 until one came.
     std::shared_ptr<std::uint32_t> answered(const std::string& name) {
-        const auto* kept = before<std::shared_ptr<std::uint32_t>>(name);
-        auto number = kept != nullptr ? *kept : std::make_shared<std::uint32_t>(0);
-        leave(name, number);
+        std::shared_ptr<std::uint32_t>& number = answers_[name];
+        number = number != nullptr ? number : std::make_shared<std::uint32_t>(0);
         return number;
     }
 
@@ -84,6 +83,7 @@ class History {
     std::map<std::string, KeptTexture> textures_;
     std::map<std::string, KeptPair> pairs_;
     std::map<std::string, KeptValue> values_;
+    std::map<std::string, std::shared_ptr<std::uint32_t>> answers_;
 
     /// Textures that were replaced or forgotten: frames in flight may still read them.
     struct Dropped {
