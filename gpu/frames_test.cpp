@@ -256,6 +256,16 @@ TEST(Fingerprint, SaysWhatAPlanDependsOnAndNothingElse) {
     EXPECT_EQ(one, fingerprint(declaration_of(8, Load::clear, VK_IMAGE_LAYOUT_GENERAL, "b")));
     EXPECT_NE(one, fingerprint(declaration_of(9, Load::clear, VK_IMAGE_LAYOUT_UNDEFINED, "a")));
     EXPECT_NE(one, fingerprint(declaration_of(8, Load::keep, VK_IMAGE_LAYOUT_UNDEFINED, "a")));
+
+    // Memory is planned for a transient buffer, and none for an imported one.
+    const auto with_buffer = [](bool imported, VkDeviceSize bytes) {
+        GraphDeclaration declaration = declaration_of(8, Load::clear, VK_IMAGE_LAYOUT_UNDEFINED, "a");
+        declaration.buffers.push_back({.desc = {.name = "b", .bytes = bytes}, .imported = imported});
+        return fingerprint(declaration);
+    };
+    EXPECT_EQ(with_buffer(true, 64), with_buffer(true, 128));
+    EXPECT_NE(with_buffer(false, 64), with_buffer(false, 128));
+    EXPECT_NE(with_buffer(false, 64), with_buffer(true, 64));
 }
 
 }  // namespace

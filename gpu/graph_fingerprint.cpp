@@ -22,7 +22,11 @@ Fingerprint fingerprint(const GraphDeclaration& declaration) {
         hasher.value(desc.samples).value(desc.usage).value(desc.cube).value(texture.imported).value(texture.kept);
     }
     for (const DeclaredBuffer& buffer : declaration.buffers) {
-        hasher.value(buffer.desc.bytes).value(buffer.desc.usage).value(buffer.imported).value(buffer.kept);
+        // An imported buffer takes no memory here; a renderer's may end elsewhere in every frame.
+        hasher.value(buffer.imported ? 0 : buffer.desc.bytes)
+            .value(buffer.desc.usage)
+            .value(buffer.imported)
+            .value(buffer.kept);
     }
     for (const DeclaredPass& pass : declaration.passes) {
         hasher.value(pass.keep).value(pass.uses.size());
