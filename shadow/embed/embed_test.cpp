@@ -117,6 +117,41 @@ TEST(Embed, ASteadySequenceCreatesNothing) {
     EXPECT_GT(shadows.completed(0).passes.size(), 2U);
 }
 
+TEST(Embed, TransformsMayLieElsewhereInEveryFrame) {
+    const test::ValidationGuard guard;
+    // A ring of as many places as there are frames, each but the last with transforms that hide everything.
+    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    Result<Shadows> made = make("pcf,placement=cascades");
+    ASSERT_TRUE(made.ok()) << made.why();
+    Shadows& shadows = made.value();
+    run(shadows, renderer.frame());
+    const std::vector<float> still = renderer.visibility(0);
+    constexpr std::size_t places = 8;
+    const std::size_t objects = renderer.objects.size();
+    std::vector<mat4> ring(places * objects, glm::translate(mat4(1), vec3(0, -100, 0)));
+    std::fill(ring.end() - static_cast<std::ptrdiff_t>(objects), ring.end(), mat4(1));
+    const auto bytes = std::as_bytes(std::span(ring));
+    const Buffer buffer = upload_buffer(
+        device(), {.name = "ring", .bytes = bytes.size(), .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}, bytes);
+    std::optional<Counters> settled;
+    for (std::size_t i = 0; i < places; ++i) {
+        ++renderer.poses;
+        Frame frame = renderer.frame(static_cast<std::uint32_t>(i % 2));
+        const VkDeviceSize share = objects * sizeof(mat4);
+        frame.casters.transforms = {buffer.vk(), i * share, share};
+        run(shadows, frame);
+        settled = i == 3 ? shadows.counters() : settled;
+        EXPECT_EQ(renderer.visibility(0) == still, i + 1 == places) << "place " << i;
+    }
+    EXPECT_EQ(shadows.counters(), *settled);
+    Frame frame = renderer.frame();
+    ++frame.casters.poses;
+    frame.casters.transforms.bytes = 4;
+    device().run([&](VkCommandBuffer commands) {
+        EXPECT_NE(shadows.record(commands, frame).why().find("transforms"), std::string::npos);
+    });
+}
+
 TEST(Embed, CastersMoveWithTheirTransforms) {
     const test::ValidationGuard guard;
     // The floor stays; everything else moves aside by a metre, on the device alone.

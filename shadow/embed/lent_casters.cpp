@@ -15,7 +15,12 @@ constexpr std::uint32_t opaque_white = 0xFFFFFFFF;
 
 constexpr const char* find_text = R"(
 layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { uint count; uint objects; uint row; } push;
+// Where buffers begin is pushed, in words: a renderer may move through a ring of them.
+layout(push_constant) uniform Push {
+    uint count, objects, row;
+    uint first, stride;
+    uint first_transform;
+} push;
 // Work beyond the most groups of one axis lies in further rows.
 uint work() { return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * push.row; }
 uint first_of(uint i);
@@ -42,9 +47,9 @@ void main() {
         return;
     }
     GnLentObject o = objects[object_at(vertex)];
-    uint word = GN_FIRST_POSITION + GN_STRIDE * (o.first_vertex + vertex - o.out_vertex);
+    uint word = push.first + push.stride * (o.first_vertex + vertex - o.out_vertex);
     vec3 p_os = vec3(positions_os[word], positions_os[word + 1], positions_os[word + 2]);
-    uint m = GN_FIRST_TRANSFORM + 16 * o.transform;
+    uint m = push.first_transform + 16 * o.transform;
     mat4x3 ws_from_os = mat4x3(transforms[m], transforms[m + 1], transforms[m + 2], transforms[m + 4], transforms[m + 5],
                                transforms[m + 6], transforms[m + 8], transforms[m + 9], transforms[m + 10],
                                transforms[m + 12], transforms[m + 13], transforms[m + 14]);
@@ -60,7 +65,7 @@ void main() {
         return;
     }
     GnLentObject o = objects[object_at(place)];
-    uint index = lent_indices[GN_FIRST_INDEX + o.first_index + place - o.out_index];
+    uint index = lent_indices[push.first + o.first_index + place - o.out_index];
     indices[place] = o.out_vertex + min(index, o.vertex_count - 1);
 }
 )";
@@ -95,6 +100,10 @@ void check_ranges(const CasterBuffers& casters) {
                 std::uint64_t{o.first_vertex} + o.vertex_count, vertices);
         }
     }
+}
+
+/// What may change in every frame.
+void check_poses(const CasterBuffers& casters) {
     if (casters.objects.size() * sizeof(mat4) > casters.transforms.bytes) {
         fail("the casters' transforms are {} bytes; {} objects need {}", casters.transforms.bytes,
              casters.objects.size(), casters.objects.size() * sizeof(mat4));
@@ -104,12 +113,23 @@ void check_ranges(const CasterBuffers& casters) {
     }
 }
 
+/// Where lent buffers begin, in words; positions and indices are never read by one pass.
+struct Begins {
+    std::uint32_t first = 0, stride = 0, first_transform = 0;
+};
+
+std::uint32_t word_of(VkDeviceSize bytes) {
+    return static_cast<std::uint32_t>(bytes / 4);
+}
+
 /// Dispatches over `count` invocations of 64 a group, in as many rows as it takes.
-void dispatch_over(Recorder& r, std::uint32_t count, std::uint32_t objects) {
+void dispatch_over(Recorder& r, std::uint32_t count, std::uint32_t objects, const Begins& begins) {
     constexpr std::uint32_t most = 65535;
     const std::uint32_t groups = (count + 63) / 64;
     const std::uint32_t across = std::min(groups, most);
-    r.push_value(uvec3(count, objects, across * 64));
+    const std::array<std::uint32_t, 6> push{count,        objects,       across * 64,
+                                            begins.first, begins.stride, begins.first_transform};
+    r.push_value(push);
     r.dispatch(across, (groups + across - 1) / across);
 }
 
@@ -169,6 +189,7 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
         check_ranges(casters);
         rebuild(frames, casters);
     }
+    check_poses(casters);
     const bool moved = poses_ != casters.poses;
     scene_.bounds_ws = casters.bounds_ws;
     for (Object& object : scene_.objects) {
@@ -178,17 +199,17 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
     const BufferHandle positions = graph.import(*positions_), indices = graph.import(*indices_);
     const auto objects = static_cast<std::uint32_t>(table_.size() / sizeof(LentObject));
     const auto add_pass = [&](const char* name, const char* text, ShaderInputs inputs, std::uint32_t count,
-                              const std::string& defines) {
+                              const Begins& begins) {
         inputs.block("readonly buffer", "Objects", "GnLentObject objects[];", table_);
         const ComputeDesc shader{
             .shader = {ShaderKind::compute, name,
-                       defines + "#include \"shadow/embed/lent_casters.glsl\"\n" + inputs.text() + find_text + text}};
+                       "#include \"shadow/embed/lent_casters.glsl\"\n" + inputs.text() + find_text + text}};
         graph.add_pass(
             name, [&](PassBuilder& pass) { inputs.declare(pass); },
             [=](Recorder& r) {
                 r.bind(shader);
                 inputs.set(r);
-                dispatch_over(r, count, objects);
+                dispatch_over(r, count, objects, begins);
             });
     };
     if (rebuilt && index_count_ > 0) {
@@ -197,8 +218,7 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
         graph.hold(lent);
         inputs.buffer("readonly buffer", "LentIndices", "uint lent_indices[];", graph.import(*lent));
         inputs.buffer("writeonly buffer", "Indices", "uint indices[];", indices);
-        add_pass("lent indices", indices_text, inputs, index_count_,
-                 fmt::format("#define GN_FIRST_INDEX {}u\n", casters.indices.offset / 4));
+        add_pass("lent indices", indices_text, inputs, index_count_, {.first = word_of(casters.indices.offset)});
     }
     if (moved && vertices_ > 0) {
         ShaderInputs inputs;
@@ -210,8 +230,9 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
         inputs.buffer("readonly buffer", "LentTransforms", "float transforms[];", graph.import(*poses));
         inputs.buffer("writeonly buffer", "Positions", "vec3 positions_ws[];", positions);
         add_pass("lent positions", positions_text, inputs, vertices_,
-                 fmt::format("#define GN_FIRST_POSITION {}u\n#define GN_STRIDE {}u\n#define GN_FIRST_TRANSFORM {}u\n",
-                             casters.positions.offset / 4, casters.stride / 4, casters.transforms.offset / 4));
+                 {.first = word_of(casters.positions.offset),
+                  .stride = word_of(casters.stride),
+                  .first_transform = word_of(casters.transforms.offset)});
     }
     if (moved) {
         poses_ = casters.poses;
