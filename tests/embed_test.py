@@ -24,10 +24,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # What Gnomon uses where it is enabled: each is left out alone, then all at once with what only widens its shaders' words.
 OPTIONAL = ("samplerAnisotropy", "shaderOutputLayer", "shaderFloat64", "multiDrawIndirect", "drawIndirectFirstInstance")
 WIDENING = ("shaderStorageImageReadWithoutFormat", "shaderStorageImageExtendedFormats", "shaderImageGatherExtended",
-            "shaderClipDistance", "samplerFilterMinmax", "hostQueryReset", "shaderDemoteToHelperInvocation",
+            "samplerFilterMinmax", "hostQueryReset", "shaderDemoteToHelperInvocation",
             "shaderDrawParameters")
 REQUIRED = ("dynamicRendering", "synchronization2", "maintenance4", "scalarBlockLayout", "geometryShader", "depthClamp",
-            "independentBlend", "imageCubeArray")
+            "shaderClipDistance", "independentBlend", "imageCubeArray")
 SIZE = (192, 108)
 
 

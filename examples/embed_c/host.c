@@ -91,6 +91,7 @@ static void create_device(Host* host) {
                                                               .sampleRateShading = VK_TRUE,
                                                               .logicOp = VK_TRUE,
                                                               .depthClamp = VK_TRUE,
+                                                              .shaderClipDistance = VK_TRUE,
                                                               .vertexPipelineStoresAndAtomics = VK_TRUE,
                                                               .fragmentStoresAndAtomics = VK_TRUE,
                                                               .shaderStorageImageWriteWithoutFormat = VK_TRUE}};
