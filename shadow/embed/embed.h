@@ -94,13 +94,14 @@ struct CasterBuffers {
     LentBuffer positions;       ///< three floats at the begin of every `stride` bytes, object space
     std::uint32_t stride = 12;  ///< bytes, a multiple of 4
     LentBuffer indices;         ///< 32 bits each
-    LentBuffer
-        transforms;  ///< a mat4 for every object, columns first: ws_from_os, affine; elsewhere every frame, if need be
+    /// A mat4 for every object, columns first: ws_from_os, affine. It may lie elsewhere in every frame.
+    LentBuffer transforms;
     std::span<const CasterObject> objects;
     Box bounds_ws;  ///< of all objects and of all that the camera sees, in this frame
-    std::uint64_t topology =
-        0;  ///< another number whenever objects, indices or the buffers of positions and indices change
-    std::uint64_t poses = 0;  ///< another number whenever positions or transforms change: else maps may be kept
+    /// Another number whenever objects, indices, or the buffers of positions and indices change.
+    std::uint64_t topology = 0;
+    /// Another number whenever positions or transforms change: else maps may be kept.
+    std::uint64_t poses = 0;
 };
 
 struct LentLight {

@@ -13,8 +13,7 @@
  *
  * Functions that can fail give NULL or one sentence, which stays until the thread's next call. Vectors are world space, metres,
  * y up; matrices are columns first. All that is zero is off, none or unset: nothing is chosen silently. */
-#ifndef GNOMON_H
-#define GNOMON_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -142,6 +141,4 @@ GnomonCounters gnomon_counters(const GnomonShadows* shadows);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif
