@@ -231,8 +231,8 @@ void Occluders::reject(const RTCFilterFunctionNArguments* arguments) {
                               RTCRayN_org_y(arguments->ray, arguments->N, i),
                               RTCRayN_org_z(arguments->ray, arguments->N, i));
         // Near the light's end the side of the triangle's plane decides.
-        const double distance = static_cast<double>(query.distance[RTCRayN_id(arguments->ray, arguments->N, i)]);
-        const double at = static_cast<double>(RTCRayN_tfar(arguments->ray, arguments->N, i));
+        const auto distance = static_cast<double>(query.distance[RTCRayN_id(arguments->ray, arguments->N, i)]);
+        const auto at = static_cast<double>(RTCRayN_tfar(arguments->ray, arguments->N, i));
         const bool near_end = at > distance - ulps_at(hit_ulps, distance + largest(origin_ws));
         const bool rises = glm::dot(query.seat->n_ws, towards_light) > 0.0;
         const Blocks blocks = (*query.blockers)[query.self->object_[triangle]];

@@ -89,7 +89,7 @@ struct PictureNames {
         if (folder.empty()) {
             return {};
         }
-        const std::string name = fmt::format("{}-{}.png", stem, what);
+        std::string name = fmt::format("{}-{}.png", stem, what);
         write_png(folder / name, image);
         return name;
     }

@@ -24,6 +24,8 @@
 extern "C" {
 #endif
 
+/* C has its own ways: NOLINTBEGIN(modernize-use-using, readability-identifier-naming) */
+
 typedef struct GnomonShadows GnomonShadows;
 
 typedef enum GnomonNormals {
@@ -138,6 +140,8 @@ void gnomon_forget_images(GnomonShadows* shadows);
 /* Passes of the slot's last completed use; they stay until the next call of this function. Gives their number. */
 uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPass** passes);
 GnomonCounters gnomon_counters(const GnomonShadows* shadows);
+
+/* NOLINTEND(modernize-use-using, readability-identifier-naming) */
 
 #ifdef __cplusplus
 }

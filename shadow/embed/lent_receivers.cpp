@@ -119,7 +119,7 @@ ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, cons
             {.name = name, .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = lent.width, .height = lent.height});
     };
     const TextureHandle position = create("position"), normal = create("normal");
-    const ViewSamples samples = lent_samples(graph, camera.camera, position, normal);
+    ViewSamples samples = lent_samples(graph, camera.camera, position, normal);
 
     ShaderInputs inputs;
     inputs.texture("sampler2D", "lent_depth", depth);

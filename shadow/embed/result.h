@@ -15,9 +15,9 @@ template <class T>
 class [[nodiscard]] Result {
   public:
     Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): returned by value
-    static Result failure(std::string why) {
+    static Result failure(const std::string& why) {
         Result result;
-        result.why_ = std::move(why);
+        result.why_ = why;
         return result;
     }
     [[nodiscard]] bool ok() const { return value_.has_value(); }

@@ -28,7 +28,7 @@ Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
 
 /// The same for opaque casters and, where there are any, for translucent ones: the product.
 Visibility add_both_maps(const FrameInput& input, const Recipe& recipe) {
-    const Visibility solid = add_mapped(input, recipe);
+    Visibility solid = add_mapped(input, recipe);
     if (recipe.translucent_map == nullptr || translucent_casters(input.scene, input.light()).empty()) {
         return solid;
     }

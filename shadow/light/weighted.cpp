@@ -126,7 +126,7 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
 
     // Passes point to the lights: they live as long as the graph.
     graph.hold(lights);
-    const Visibility result{create_visibility(graph, input.samples, channels)};
+    Visibility result{create_visibility(graph, input.samples, channels)};
     ShaderInputs inputs = inputs_of(input);
     inputs.image(image_format(sums_format(channels)), "readonly", "image2D", "sums", sums);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);

@@ -137,7 +137,7 @@ void main() {
 )";
 
 /// Bytes of GnForwardSample in scalar layout.
-constexpr VkDeviceSize sample_bytes = 10 * 4;
+constexpr VkDeviceSize sample_bytes = 10 * sizeof(float);
 
 VkDeviceSize pixels(const ViewSamples& samples) {
     return VkDeviceSize{samples.width} * samples.height;
@@ -199,7 +199,7 @@ BufferHandle add_forward_splats(const FrameInput& input, const Recipe& recipe, c
 }
 
 Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, BufferHandle light) {
-    const Visibility result{create_visibility(input.graph, input.samples)};
+    Visibility result{create_visibility(input.graph, input.samples)};
     ShaderInputs inputs;
     inputs.buffer("readonly buffer", "Samples", "GnForwardSample samples[];", samples);
     inputs.buffer("readonly buffer", "Light", "uint light[];", light);

@@ -124,7 +124,7 @@ void add_receivers(const FrameInput& input, const std::vector<GnPlanarFrame>& pl
             pass.sample(input.samples.position);
             pass.sample(input.samples.normal);
         },
-        [samples = input.samples, light = input.whole_light().shape, planes, image](Recorder& r) {
+        [samples = input.samples, light = input.whole_light().shape, planes](Recorder& r) {
             const auto draw = [&](bool mark, std::uint32_t name, const GnPlanarFrame& frame) {
                 r.bind(receiver_pipeline(mark));
                 r.stencil_reference(name);
