@@ -37,6 +37,11 @@ struct GnSdsmReduction {
     float ends[GN_CASCADES_MOST + 1];  ///< of the slices, near first
 };
 
+#ifdef __cplusplus
+using glm::cos;
+using glm::sin;
+#endif
+
 /// Direction `axis` in the light's plane, in the axes of the light's frame.
 GN_FN vec2 gn_sdsm_axis(int axis) {
     float angle = float(axis) * (1.57079633f / float(GN_SDSM_TURNS));
