@@ -149,7 +149,7 @@ bool set_top_level(Recipe& recipe, std::string_view key, std::string_view value,
 
 void fail_unknown_key(const Recipe& recipe, std::string_view key, const std::string& where) {
     std::vector<std::string_view> known(top_level_keys.begin(), top_level_keys.end());
-    known.push_back("translucent");
+    known.emplace_back("translucent");
     for (const auto& [id, block] : recipe.params) {
         if (block.table() != nullptr && !block.table()->rows.empty()) {
             known.push_back(id);

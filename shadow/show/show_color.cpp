@@ -18,7 +18,8 @@ vec3 hue(int index) {
                                        vec3(0.88F, 0.40F, 0.42F), vec3(0.64F, 0.52F, 0.84F), vec3(0.92F, 0.84F, 0.36F),
                                        vec3(0.44F, 0.78F, 0.80F), vec3(0.86F, 0.58F, 0.76F)};
     const auto i = static_cast<std::size_t>(std::max(index, 0));
-    return hues.at(i % hues.size()) * std::pow(0.75F, static_cast<float>(i / hues.size()));
+    const std::size_t round = i / hues.size();
+    return hues.at(i % hues.size()) * std::pow(0.75F, static_cast<float>(round));
 }
 
 vec3 along(std::span<const vec3> stops, float t) {

@@ -127,7 +127,7 @@ void add_lit(const FrameInput& input, const char* name, const Visibility& result
 }  // namespace
 
 Visibility add_no_shadow(const FrameInput& input) {
-    const Visibility result{create_visibility(input.graph, input.samples)};
+    Visibility result{create_visibility(input.graph, input.samples)};
     add_lit(input, "no shadow", result, unshadowed_text);
     return result;
 }
