@@ -126,7 +126,7 @@ std::string figure(std::optional<double> value) {
 
 std::string human_bytes(std::uint64_t bytes) {
     constexpr std::array<std::string_view, 4> units{"B", "KiB", "MiB", "GiB"};
-    double value = static_cast<double>(bytes);
+    auto value = static_cast<double>(bytes);
     std::size_t unit = 0;
     while (value >= 1024 && unit + 1 < units.size()) {
         value /= 1024;
