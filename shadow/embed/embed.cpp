@@ -25,8 +25,7 @@ void check_parts(const Recipe& recipe) {
     if (recipe.casters == Casters::ids) {
         fail(
             "casters=ids compares object ids of the view's samples, which a renderer's depth and normals do not bring; "
-            "valid "
-            "here are all, front, back, midpoint and dual");
+            "valid here are all, front, back, midpoint and dual");
     }
 }
 
@@ -55,24 +54,30 @@ struct Shadows::State {
     std::unique_ptr<Device> device;
     std::shared_ptr<const PreparedRecipe> recipe;
     std::shared_ptr<History> history;
+    std::set<std::string> late_remarks;  ///< answers of frames write it, so that it outlives them
     Frames frames;
     LentImages images;
     LentCasters casters;
-    std::set<std::string> late_remarks;
 
+    void forget_history();
     void prepare(const std::string& text);
     std::vector<std::string> record(VkCommandBuffer commands, const Frame& frame);
     void check(const Frame& frame) const;
     std::vector<FrameLight> take_lights(const Frame& frame);
 };
 
+/// Nothing is kept from before; frames in flight still read what was.
+void Shadows::State::forget_history() {
+    frames.retire(history);
+    history = std::make_shared<History>(*device);
+}
+
 void Shadows::State::prepare(const std::string& text) {
     Recipe loaded = load_recipe(text);
     check_parts(loaded);
     frames.retire(recipe);
     recipe = std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
-    frames.retire(history);
-    history = std::make_shared<History>(*device);
+    forget_history();
 }
 
 void Shadows::State::check(const Frame& frame) const {
@@ -112,8 +117,7 @@ std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const 
     frames.begin(frame.slot);
     images.begin(frame.receivers.width, frame.receivers.height);
     if (frame.cut) {
-        frames.retire(history);
-        history = std::make_shared<History>(*device);
+        forget_history();
     }
     FrameGraph graph(*device);
 

@@ -83,15 +83,10 @@ void main() {
 }
 )";
 
-constexpr const char* give_one = R"(
+constexpr const char* give_text = R"(
 layout(binding = 0) uniform sampler2D visibility;
 layout(location = 0) out vec4 v;
-void main() { v = vec4(texelFetch(visibility, ivec2(gl_FragCoord.xy), 0).rrr, 1.0); }
-)";
-constexpr const char* give_three = R"(
-layout(binding = 0) uniform sampler2D visibility;
-layout(location = 0) out vec4 v;
-void main() { v = vec4(texelFetch(visibility, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
+void main() { v = vec4(vec3(GN_V_OF(texelFetch(visibility, ivec2(gl_FragCoord.xy), 0))), 1.0); }
 )";
 
 /// What the pixels' rays are, from the camera's constants: `first_ws` leads to the picture's corner.
@@ -155,7 +150,7 @@ void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target)
             [](Recorder&) {});
         return;
     }
-    const char* const text = channels_of(graph, visibility) == 1 ? give_one : give_three;
+    const std::string text = channels_text(channels_of(graph, visibility)) + give_text;
     graph.add_pass(
         "give back V",
         [&](PassBuilder& pass) {
