@@ -62,4 +62,11 @@ class ShaderInputs {
     std::vector<std::byte> constants_;
 };
 
+/// The key of a shader of which these inputs are all that differs; more may be added to it.
+inline Hasher hashed(const ShaderInputs& inputs) {
+    Hasher hasher;
+    inputs.hash(hasher);
+    return hasher;
+}
+
 }  // namespace gn

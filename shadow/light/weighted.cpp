@@ -51,18 +51,19 @@ std::string sums_text(uint channels) {
                           : "#define GN_SUM(v) vec4(v, 1.0)\n#define GN_SUM_WEIGHT(sum) (sum).a\n");
 }
 
-/// A pass over the view samples; its shader has u.view, u.light and what `inputs` adds.
-void add_pass(const FrameInput& input, const char* name, const std::string& prologue, ShaderInputs inputs,
-              const char* text) {
+/// A pass over the view samples; its shader has u.view, u.light and what `inputs` adds, and `prologue` composes what stands
+/// before them.
+template <class Prologue>
+void add_pass(const FrameInput& input, const char* name, ShaderInputs inputs, Prologue prologue, const char* text) {
     add_gbuffer(inputs, input.device, input.samples);
-    const ComputeDesc shader{{ShaderKind::compute, name,
-                              expect_text(input.device) + "#include \"shadow/view/view.glsl\"\n" + prologue +
-                                  inputs.text() + begin_text + text},
-                             {}};
+    const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
+        return expect_text(input.device) + include_line("shadow/view/view.glsl") + prologue() + inputs.text() +
+               begin_text + text;
+    });
     input.graph.add_pass(
         name, [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
-            r.bind(shader);
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch_pixels(size.x, size.y);
         });
@@ -86,12 +87,14 @@ void add_one(const FrameInput& one, const Recipe& recipe, int index, int count, 
     inputs.texture("sampler2D", "visibility", visibility);
     const uint channels = channels_of(one.graph, visibility);
     inputs.image(image_format(sums_format(channels)), "", "image2D", "sums", sums);
-    add_pass(one, "light: add",
-             sums_text(channels) + include_line(part.glsl) +
-                 fmt::format("#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
-                             "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
-                             identifier(part.id)),
-             std::move(inputs), add_text);
+    const auto prologue = [&] {
+        return sums_text(channels) + include_line(part.glsl) +
+               fmt::format(
+                   "#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
+                   "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
+                   identifier(part.id));
+    };
+    add_pass(one, "light: add", std::move(inputs), prologue, add_text);
 }
 
 }  // namespace
@@ -130,7 +133,8 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
     ShaderInputs inputs = inputs_of(input);
     inputs.image(image_format(sums_format(channels)), "readonly", "image2D", "sums", sums);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
-    add_pass(input, "light: mean", sums_text(channels), std::move(inputs), mean_text);
+    add_pass(
+        input, "light: mean", std::move(inputs), [&] { return sums_text(channels); }, mean_text);
     return result;
 }
 

@@ -13,7 +13,7 @@ namespace gn {
 namespace {
 
 TextureHandle add_sums(const DerivedFrom& from) {
-    return add_sat(from.input.graph, from.source, {.table = GN_SAT_FLOAT32});
+    return add_sat(from.input.graph, from.source, {.table = GN_SAT_FLOAT32}, from.input.prepared);
 }
 
 TextureHandle add_all_mips(const DerivedFrom& from) {

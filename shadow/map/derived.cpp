@@ -2,38 +2,45 @@
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #include "shadow/map/derived.h"
 
+#include "gpu/shader_inputs.h"
+
 #include <algorithm>
 #include <bit>
 
 namespace gn {
 namespace {
 
-/// One fragment pass into one mip of one layer; `text` reads `source`, `push` (layer, stride) and gl_FragCoord.
+/// One fragment pass into one mip of one layer.
 struct Step {
-    const char* name;
-    std::string text;
+    const RasterDesc& shader;
     Range from, to;
     ivec2 push{0};  ///< layer within `from`, distance between the squares that are joined
 };
 
 void add_step(FrameGraph& graph, TextureHandle source, TextureHandle target, const Step& step) {
-    static constexpr const char* head = R"(
-layout(binding = 0) uniform sampler2DArray source;
-layout(push_constant) uniform Push { int layer; int stride; } push;
-layout(location = 0) out vec4 result;
-)";
     graph.add_pass(
-        step.name,
+        step.shader.fragment->name,
         [&](PassBuilder& pass) {
             pass.sample(source, step.from);
             pass.color(target, Load::discard, {}, step.to);
         },
-        [source, step, desc = fullscreen({ShaderKind::fragment, step.name, head + step.text})](Recorder& r) {
-            r.bind(desc);
+        [source, step](Recorder& r) {
+            r.bind(step.shader);
             r.set("source", source, nearest(), step.from);
             r.push_value(step.push);
             r.draw(3);
         });
+}
+
+/// `text` reads `source`, `push` (layer, stride) and gl_FragCoord.
+RasterDesc step_shader(const char* name, const std::string& text) {
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "source", {});
+    return sealed(fullscreen({ShaderKind::fragment, name,
+                              inputs.text() +
+                                  "layout(push_constant) uniform Push { int layer; int stride; } push;\n"
+                                  "layout(location = 0) out vec4 result;\n" +
+                                  text}));
 }
 
 constexpr const char* copy_text =
@@ -82,6 +89,19 @@ void main() {
                                          "max(max(aa.y, ba.y), max(ab.y, bb.y)), 0.0, 0.0);\n}\n");
 }
 
+/// The shaders of all steps, composed once.
+struct StepShaders {
+    RasterDesc range = step_shader("min max", first_text), halve = step_shader("min max", halve_text);
+    RasterDesc square = step_shader("n-buffer", first_text), copy = step_shader("n-buffer", copy_text);
+    RasterDesc join_ranges = step_shader("n-buffer", join_text(NBuffer::min_max));
+    RasterDesc join_means = step_shader("n-buffer", join_text(NBuffer::mean));
+    RasterDesc mipmapped = step_shader("mipmapped", copy_text);
+};
+const StepShaders& step_shaders() {
+    static const StepShaders shaders;
+    return shaders;
+}
+
 TextureDesc range_desc(FrameGraph& graph, TextureHandle source, std::string name) {
     TextureDesc desc = graph.desc(source);
     GN_CHECK_EQ(desc.samples, 1U);
@@ -99,10 +119,9 @@ TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth) {
     desc.mips = static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)));
     const TextureHandle pyramid = graph.create(desc);
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
-        add_step(graph, depth, pyramid, {"min max", first_text, one_layer(layer), one_layer(layer)});
+        add_step(graph, depth, pyramid, {step_shaders().range, one_layer(layer), one_layer(layer)});
         for (std::uint32_t mip = 1; mip < desc.mips; ++mip) {
-            add_step(graph, pyramid, pyramid,
-                     {"min max", halve_text, one_layer(layer, mip - 1), one_layer(layer, mip)});
+            add_step(graph, pyramid, pyramid, {step_shaders().halve, one_layer(layer, mip - 1), one_layer(layer, mip)});
         }
     }
     return pyramid;
@@ -121,17 +140,14 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
     const std::uint32_t levels = n_buffer_levels(std::max(desc.width, desc.height), most_levels);
     desc.layers = layers * levels;
     const TextureHandle buffer = graph.create(desc);
-    const char* const first = kind == NBuffer::mean ? copy_text : first_text;
+    const RasterDesc& first = kind == NBuffer::mean ? step_shaders().copy : step_shaders().square;
+    const RasterDesc& join = kind == NBuffer::mean ? step_shaders().join_means : step_shaders().join_ranges;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t base = layer * levels;
-        add_step(graph, source, buffer, {"n-buffer", first, one_layer(layer), one_layer(base)});
+        add_step(graph, source, buffer, {first, one_layer(layer), one_layer(base)});
         for (std::uint32_t level = 1; level < levels; ++level) {
             add_step(graph, buffer, buffer,
-                     {"n-buffer",
-                      join_text(kind),
-                      one_layer(base + level - 1),
-                      one_layer(base + level),
-                      {0, 1 << (level - 1)}});
+                     {join, one_layer(base + level - 1), one_layer(base + level), {0, 1 << (level - 1)}});
         }
     }
     return buffer;
@@ -161,7 +177,7 @@ TextureHandle add_mipmapped(FrameGraph& graph, TextureHandle source) {
     desc.usage = 0;
     const TextureHandle copy = graph.create(desc);
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
-        add_step(graph, source, copy, {"mipmapped", copy_text, one_layer(layer), one_layer(layer)});
+        add_step(graph, source, copy, {step_shaders().mipmapped, one_layer(layer), one_layer(layer)});
     }
     add_mips(graph, copy);
     return copy;

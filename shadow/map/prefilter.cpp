@@ -4,6 +4,7 @@
 #include "shadow/casters/tiles.h"
 #include "shadow/map/derived.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 #include <bit>
 #include <cmath>
@@ -36,7 +37,6 @@ TextureHandle create_like(const FrameInput& input, TextureHandle source, std::st
 /// The mean of the samples' stored values: moments average, depths would not.
 TextureHandle add_resolve_samples(const FrameInput& input, TextureHandle source, const MomentMap& map) {
     static constexpr const char* text = R"(
-layout(binding = 0) uniform sampler2DMSArray multisampled;
 layout(push_constant) uniform Push { int push_layer; };
 layout(location = 0) out vec4 out_moments;
 void main() {
@@ -46,16 +46,21 @@ void main() {
 }
 )";
     const TextureHandle target = create_like(input, source, map.name, map.mips);
+    ShaderInputs inputs;
+    inputs.texture("sampler2DMSArray", "multisampled", source);
+    const auto shader = made_once(input.prepared, "resolve samples", 0, [&] {
+        return sealed(fullscreen({ShaderKind::fragment, "resolve samples", inputs.text() + text}));
+    });
     for (std::uint32_t layer = 0; layer < input.graph.desc(source).layers; ++layer) {
         input.graph.add_pass(
             "resolve samples",
             [&](PassBuilder& pass) {
-                pass.sample(source);
+                inputs.declare(pass);
                 pass.color(target, Load::discard, {}, one_layer(layer));
             },
-            [source, layer](Recorder& r) {
-                r.bind(fullscreen({ShaderKind::fragment, "resolve samples", text}));
-                r.set("multisampled", source);
+            [inputs, shader, layer](Recorder& r) {
+                r.bind(*shader);
+                inputs.set(r);
                 r.push_value(static_cast<std::int32_t>(layer));
                 r.draw(3);
             });
@@ -153,11 +158,14 @@ TextureHandle add_blur(const FrameInput& input, const LightViews& views, Texture
     if (!blurs(kernel, radius)) {
         return source;
     }
-    const std::vector<float> weights = blur_weights(kernel, radius);
+    const auto text = [&](const char* step) {
+        return *made_once(input.prepared, step, Hasher().value(kernel).value(radius).finish().low,
+                          [&] { return blur_text(blur_weights(kernel, radius), step); });
+    };
     const TextureHandle half = create_like(input, source, "map blurred in u", 1);
     const TextureHandle whole = create_like(input, source, "map blurred", mips);
-    add_layer_passes(input, source, half, {.name = "blur u", .text = blur_text(weights, "1, 0"), .tiles = &views});
-    add_layer_passes(input, half, whole, {.name = "blur v", .text = blur_text(weights, "0, 1"), .tiles = &views});
+    add_layer_passes(input, source, half, {.name = "blur u", .text = text("1, 0"), .tiles = &views});
+    add_layer_passes(input, half, whole, {.name = "blur v", .text = text("0, 1"), .tiles = &views});
     return whole;
 }
 
@@ -181,7 +189,9 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
     const BufferHandle quads = tiles != nullptr ? add_tile_draw(input, *tiles, tile_quad_vertices) : BufferHandle{};
     ShaderInputs inputs = pass.inputs;
     inputs.texels(input.device, input.graph.desc(source).format, "2DArray", "source", source);
-    const RasterDesc desc = layer_pipeline(pass, inputs, tiles != nullptr);
+    const Hasher key = hashed(inputs).text(pass.includes).text(pass.text).value(tiles != nullptr);
+    const auto shader = made_once(input.prepared, pass.name, key.finish().low,
+                                  [&] { return sealed(layer_pipeline(pass, inputs, tiles != nullptr)); });
     const ShaderInputs lights = tiles != nullptr ? view_inputs(*tiles) : ShaderInputs();
     const std::uint32_t layers = input.graph.desc(target).layers;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
@@ -197,8 +207,8 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
                 }
                 builder.color(target, quads.valid() ? Load::clear : Load::discard, {}, one_layer(layer));
             },
-            [desc, inputs, lights, push, quads](Recorder& r) {
-                r.bind(desc);
+            [shader, inputs, lights, push, quads](Recorder& r) {
+                r.bind(*shader);
                 inputs.set(r);
                 lights.set(r);
                 r.push_value(push);

@@ -5,7 +5,9 @@
 // Departs from it: compute shaders scan a line in one pass, one invocation a line or one workgroup a line.
 #include "shadow/map/sums.h"
 
+#include "gpu/shader_inputs.h"
 #include "shadow/map/sums.glsl"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -17,15 +19,12 @@ layout(push_constant) uniform Push { float levels; };
 #define GN_SUM uvec2
 #elif defined(GN_FOUR)
 #define GN_SUM vec4
-#define GN_STORED rgba32f
 #define GN_TEXEL(sum) sum
 #else
 #define GN_SUM vec2
-#define GN_STORED rg32f
 #define GN_TEXEL(sum) vec4(sum, 0.0, 0.0)
 #endif
 #ifdef GN_ROWS
-layout(binding = 0) uniform sampler2DArray source;
 GN_SUM load(int line, int i, int layer) {
     vec4 texel = texelFetch(source, ivec3(i, line, layer), 0);
 #ifdef GN_INTEGER
@@ -35,20 +34,14 @@ GN_SUM load(int line, int i, int layer) {
 #endif
 }
 #ifdef GN_INTEGER
-layout(binding = 1, rg32ui) uniform writeonly uimage2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), uvec4(sum, 0u, 0u)); }
 #else
-layout(binding = 1, GN_STORED) uniform writeonly image2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(i, line, layer), GN_TEXEL(sum)); }
 #endif
 #else
 #ifdef GN_INTEGER
-layout(binding = 0) uniform usampler2DArray source;
-layout(binding = 1, rgba16) uniform writeonly image2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), gn_sat_pack(sum)); }
 #else
-layout(binding = 0) uniform sampler2DArray source;
-layout(binding = 1, GN_STORED) uniform writeonly image2DArray target;
 void store(int line, int i, int layer, GN_SUM sum) { imageStore(target, ivec3(line, i, layer), GN_TEXEL(sum)); }
 #endif
 GN_SUM load(int line, int i, int layer) { return GN_SUM(texelFetch(source, ivec3(line, i, layer), 0)); }
@@ -105,37 +98,58 @@ void main() {
 )";
 
 struct Scan {
-    const char* name;
-    bool rows, integer, four, in_shared_memory;
-    float levels;
+    bool rows = true, integer = false, four = false, in_shared_memory = false;
+    [[nodiscard]] const char* name() const { return rows ? "sum rows" : "sum columns"; }
 };
 
-void add_scan(FrameGraph& graph, TextureHandle source, TextureHandle target, const Scan& scan) {
+/// What a scan reads and writes, whole floats or integers, the first along rows.
+ShaderInputs inputs_of(const FrameGraph& graph, TextureHandle source, TextureHandle target, const Scan& scan) {
+    ShaderInputs inputs;
+    inputs.texture(scan.integer && !scan.rows ? "usampler2DArray" : "sampler2DArray", "source", source, nearest());
+    const VkFormat format = graph.desc(target).format;
+    const bool integers = format == VK_FORMAT_R32G32_UINT;
+    inputs.image(integers ? "rg32ui" : image_format(format), "writeonly", integers ? "uimage2DArray" : "image2DArray",
+                 "target", target);
+    return inputs;
+}
+
+ComputeDesc scan_shader(const Scan& scan, const ShaderInputs& inputs) {
     std::string text;
     text += scan.rows ? "#define GN_ROWS\n" : "";
     text += scan.integer ? "#define GN_INTEGER\n" : "";
     text += scan.four ? "#define GN_FOUR\n" : "";
+    text += inputs.text();
     text += head;
     text += scan.in_shared_memory ? shared_memory : serial;
+    return sealed(ComputeDesc{{ShaderKind::compute, scan.name(), text}, {}});
+}
+
+void add_scan(FrameGraph& graph, const PreparedRecipe* prepared, TextureHandle source, TextureHandle target,
+              const Scan& scan, float levels) {
+    const ShaderInputs inputs = inputs_of(graph, source, target, scan);
+    const Hasher key =
+        hashed(inputs).value(scan.rows).value(scan.integer).value(scan.four).value(scan.in_shared_memory);
+    const auto shader = made_once(prepared, "sums", key.finish().low, [&] { return scan_shader(scan, inputs); });
     graph.add_pass(
-        scan.name,
+        scan.name(),
         [&](PassBuilder& pass) {
             pass.sample(source, one_mip(0));
             pass.storage_write(target);
         },
-        [source, target, scan, desc = ComputeDesc{{ShaderKind::compute, scan.name, text}, {}}](Recorder& r) {
+        [source, shader, target, levels, lines_together = scan.in_shared_memory ? 1U : 64U](Recorder& r) {
             const TextureDesc& size = r.desc(target);
-            r.bind(desc);
+            r.bind(*shader);
             r.set("source", source, nearest(), one_mip(0));
             r.set_storage("target", target);
-            r.push_value(scan.levels);
-            r.dispatch(scan.in_shared_memory ? size.width : (size.width + 63) / 64, size.layers);
+            r.push_value(levels);
+            r.dispatch((size.width + lines_together - 1) / lines_together, size.layers);
         });
 }
 
 }  // namespace
 
-TextureHandle add_sat(FrameGraph& graph, TextureHandle source, const SatTable& options) {
+TextureHandle add_sat(FrameGraph& graph, TextureHandle source, const SatTable& options,
+                      const PreparedRecipe* prepared) {
     const bool integer = options.table == GN_SAT_UINT32;
     const bool in_shared_memory =
         options.scan == GN_SAT_SCAN_SHARED || (options.scan == GN_SAT_SCAN_AUTO && !graph.device().info().cpu);
@@ -153,8 +167,8 @@ TextureHandle add_sat(FrameGraph& graph, TextureHandle source, const SatTable& o
     desc.name = "map summed";
     desc.format = integer ? VK_FORMAT_R16G16B16A16_UNORM : floats;
     const TextureHandle table = graph.create(desc);
-    add_scan(graph, source, rows, {"sum rows", true, integer, four, in_shared_memory, levels});
-    add_scan(graph, rows, table, {"sum columns", false, integer, four, in_shared_memory, levels});
+    add_scan(graph, prepared, source, rows, {true, integer, four, in_shared_memory}, levels);
+    add_scan(graph, prepared, rows, table, {false, integer, four, in_shared_memory}, levels);
     return table;
 }
 

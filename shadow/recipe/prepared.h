@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/kept.h"
+#include "gpu/pipeline.h"
 #include "shadow/recipe/recipe.h"
 
 namespace gn {
@@ -36,6 +37,15 @@ template <class Make>
 auto made_once(const PreparedRecipe* prepared, std::string_view name, std::uint64_t key, Make make) {
     return prepared != nullptr ? prepared->once(name, key, std::move(make))
                                : std::make_shared<const std::invoke_result_t<Make>>(make());
+}
+
+/// A compute shader of this name, of the text that `text` composes where there is none with this key yet.
+template <class MakeText>
+std::shared_ptr<const ComputeDesc> compute_once(const PreparedRecipe* prepared, std::string_view name,
+                                                const Hasher& key, MakeText text) {
+    return made_once(prepared, name, key.finish().low, [&] {
+        return sealed(ComputeDesc{{ShaderKind::compute, std::string(name), text()}, {}});
+    });
 }
 
 }  // namespace gn

@@ -3,6 +3,7 @@
 
 #include "base/stats.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/sample_pass.h"
 
 #include <algorithm>
 
@@ -74,19 +75,14 @@ void finish_times(const GraphStatistics& statistics, FrameResult& result) {
 namespace {
 
 constexpr const char* unshadowed_text = R"(
-#include "shadow/view/view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D gbuffer_position;
-layout(binding = 1) uniform sampler2D gbuffer_normal;
-layout(binding = 2, GN_V_FORMAT) uniform writeonly image2D visibility;
-layout(binding = 3, scalar) uniform Constants { GnViewConstants view; GnLight light; } u;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
         return;
     }
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    vec3 n_ws = texelFetch(gbuffer_normal, pixel, 0).xyz;
+    vec4 position = gbuffer_position_texel(pixel);
+    vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
     bool counted = position.w > 0.5 && gn_counted(u.light, position.xyz, n_ws);
 #ifdef GN_ONLY_UNSHADOWED
     // The others keep what the technique gave them.
@@ -99,28 +95,24 @@ void main() {
 )";
 
 /// V = 1 for the samples that count: for all of them, or for those alone that receive no shadow.
-void add_lit(const FrameInput& input, const char* name, const Visibility& result, const std::string& text) {
-    struct Constants {
-        GnViewConstants view;
-        GnLight light;
-    };
-    const Constants constants{input.samples.constants, input.whole_light().shape};
+void add_lit(const FrameInput& input, const char* name, const Visibility& result, bool all) {
+    const ViewSamples& samples = input.samples;
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, samples);
+    const VkFormat format = visibility_format(channels_of(input.graph, result.image));
+    inputs.image(image_format(format), "writeonly", "image2D", "visibility", result.image);
+    inputs.constant("GnViewConstants", "view", samples.constants);
+    inputs.constant("GnLight", "light", input.whole_light().shape);
+    const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
+        return (all ? "" : "#define GN_ONLY_UNSHADOWED\n") + include_line("shadow/view/view.glsl") + inputs.text() +
+               unshadowed_text;
+    });
     input.graph.add_pass(
-        name,
-        [&](PassBuilder& pass) {
-            pass.sample(input.samples.position);
-            pass.sample(input.samples.normal);
-            pass.storage_write(result.image);
-        },
-        [=, samples = input.samples,
-         shader = ComputeDesc{{ShaderKind::compute, name, channels_text(channels_of(input.graph, result.image)) + text},
-                              {}}](Recorder& r) {
-            r.bind(shader);
-            r.set("gbuffer_position", samples.position);
-            r.set("gbuffer_normal", samples.normal);
-            r.set_storage("visibility", result.image);
-            r.set_value("u", constants);
-            r.dispatch_pixels(samples.width, samples.height);
+        name, [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, size = uvec2(samples.width, samples.height)](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch_pixels(size.x, size.y);
         });
 }
 
@@ -128,14 +120,14 @@ void add_lit(const FrameInput& input, const char* name, const Visibility& result
 
 Visibility add_no_shadow(const FrameInput& input) {
     Visibility result{create_visibility(input.graph, input.samples)};
-    add_lit(input, "no shadow", result, unshadowed_text);
+    add_lit(input, "no shadow", result, true);
     return result;
 }
 
 void add_unshadowed(const FrameInput& input, const Visibility& visibility) {
     const auto& objects = input.scene.objects;
     if (std::any_of(objects.begin(), objects.end(), [](const Object& object) { return !object.receives; })) {
-        add_lit(input, "unshadowed", visibility, std::string("#define GN_ONLY_UNSHADOWED\n") + unshadowed_text);
+        add_lit(input, "unshadowed", visibility, false);
     }
 }
 

@@ -37,14 +37,17 @@ Visibility add_combined(const FrameInput& input, const Visibility& first, const 
     ShaderInputs inputs;
     inputs.texture("sampler2D", "first", first.image).texture("sampler2D", "second", second.image);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
-    const ComputeDesc shader{
-        {ShaderKind::compute, "combine",
-         define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() + main_text},
-        {}};
+    const Hasher key = hashed(inputs)
+                           .value(combine)
+                           .value(channels_of(input.graph, first.image))
+                           .value(channels_of(input.graph, second.image));
+    const auto shader = compute_once(input.prepared, "combine", key, [&] {
+        return define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() + main_text;
+    });
     input.graph.add_pass(
         "combine", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
-            r.bind(shader);
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch_pixels(size.x, size.y);
         });

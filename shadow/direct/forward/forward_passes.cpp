@@ -4,6 +4,7 @@
 
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -155,13 +156,17 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
     ShaderInputs inputs = sample_inputs(input, recipe, views);
     inputs.buffer("writeonly buffer", "Samples", "GnForwardSample samples[];", buffer);
     inputs.constant("GnForwardParams", "params", params);
-    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
-                             include_line(views.part->glsl) + "#include \"shadow/direct/forward/forward.glsl\"\n" +
-                             inputs.text() + sample_functions(*views.part) + samples_text;
+    const std::string defines = receiver_defines(recipe, views);
+    const Hasher key = hashed(inputs).text(defines).text(views.part->id);
+    const auto shader = compute_once(input.prepared, "forward-samples.comp", key, [&] {
+        return defines + include_line("shadow/view/view.glsl") + include_line(views.part->glsl) +
+               include_line("shadow/direct/forward/forward.glsl") + inputs.text() + sample_functions(*views.part) +
+               samples_text;
+    });
     input.graph.add_pass(
         "forward: samples", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, text, width = samples.width, height = samples.height](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-samples.comp", text}});
+        [inputs, shader, width = samples.width, height = samples.height](Recorder& r) {
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch_pixels(width, height);
         });
@@ -182,12 +187,15 @@ BufferHandle add_forward_splats(const FrameInput& input, const Recipe& recipe, c
     inputs.buffer("buffer", "Light", "uint light[];", light);
     inputs.constant("GnViewConstants", "view", input.samples.constants);
     inputs.constant("GnForwardParams", "params", params);
-    const std::string text = receiver_defines(recipe, views) + "#include \"shadow/view/view.glsl\"\n" +
-                             "#include \"shadow/direct/forward/forward.glsl\"\n" + inputs.text() + splat_text;
+    const std::string defines = receiver_defines(recipe, views);
+    const auto shader = compute_once(input.prepared, "forward-splat.comp", hashed(inputs).text(defines), [&] {
+        return defines + include_line("shadow/view/view.glsl") + include_line("shadow/direct/forward/forward.glsl") +
+               inputs.text() + splat_text;
+    });
     input.graph.add_pass(
         "forward: splat", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, text, count = views.views.size(), resolution = views.resolution](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-splat.comp", text}});
+        [inputs, shader, count = views.views.size(), resolution = views.resolution](Recorder& r) {
+            r.bind(*shader);
             inputs.set(r);
             for (std::size_t view = 0; view < count; ++view) {
                 // A whole layer covers any rectangle, also one that is chosen on the GPU.
@@ -204,11 +212,13 @@ Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, Bu
     inputs.buffer("readonly buffer", "Samples", "GnForwardSample samples[];", samples);
     inputs.buffer("readonly buffer", "Light", "uint light[];", light);
     inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
-    const std::string text = "#include \"shadow/direct/forward/forward.glsl\"\n" + inputs.text() + resolve_text;
+    const auto shader = compute_once(input.prepared, "forward-resolve.comp", hashed(inputs), [&] {
+        return include_line("shadow/direct/forward/forward.glsl") + inputs.text() + resolve_text;
+    });
     input.graph.add_pass(
         "forward: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, text, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "forward-resolve.comp", text}});
+        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch_pixels(width, height);
         });

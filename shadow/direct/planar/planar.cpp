@@ -10,26 +10,23 @@
 #include "shadow/direct/planar/planar_planes.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/receiver/sample_pass.h"
-#include "shadow/recipe/recipe.h"
+#include "shadow/recipe/prepared.h"
 #include "shadow/view/draw.h"
+
+#include <algorithm>
+#include <array>
 
 namespace gn {
 namespace {
 
 constexpr const char* receiver_text = R"(
-#include "shadow/direct/planar/planar.glsl"
-#include "shadow/scene/light.h"
 layout(constant_id = 0) const int MARK = 0;
-layout(binding = 0, scalar) uniform Light { GnLight light; } u_light;
-layout(binding = 1) uniform sampler2D position_ws;
-layout(binding = 2) uniform sampler2D normal_ws;
-layout(binding = 3, scalar) uniform Frame { GnPlanarFrame frame; } u;
 layout(location = 0) out float visibility;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 p_ws = texelFetch(position_ws, pixel, 0);
-    vec3 n_ws = texelFetch(normal_ws, pixel, 0).xyz;
-    bool counted = p_ws.w > 0.0 && gn_counted(u_light.light, p_ws.xyz, n_ws);
+    vec4 p_ws = gbuffer_position_texel(pixel);
+    vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
+    bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, n_ws);
     if (MARK != 0 && !(counted && gn_planar_on_plane(u.frame.plane_ws, u.frame.tolerance, p_ws.xyz, n_ws))) {
         discard;
     }
@@ -38,11 +35,6 @@ void main() {
 )";
 
 constexpr const char* caster_vertex_text = R"(
-#include "shadow/direct/planar/planar.glsl"
-layout(binding = 0, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
-layout(binding = 4, scalar) readonly buffer Colors { vec4 colors[]; };
-layout(binding = 3, scalar) uniform Frame { GnPlanarFrame frame; } u;
 layout(location = 0) out vec3 out_mask;  // uv, and the alpha of the vertices
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[2]; };
 void main() {
@@ -58,7 +50,6 @@ void main() {
 
 constexpr const char* caster_fragment_text = R"(
 layout(constant_id = 0) const int MASKED = 0;
-layout(binding = 2) uniform sampler2D base_color_texture;
 layout(push_constant, scalar) uniform Push { float base_alpha; float cutoff; } push;
 layout(location = 0) in vec3 in_mask;
 layout(location = 0) out float visibility;
@@ -83,22 +74,40 @@ RasterDesc with_stencil(RasterDesc desc, VkCompareOp compare, VkStencilOp pass) 
     return desc;
 }
 
-RasterDesc receiver_pipeline(bool mark) {
-    RasterDesc desc = fullscreen({ShaderKind::fragment, "planar-receiver.frag", receiver_text});
-    desc.constants = {{0, mark ? 1U : 0U}};
-    desc.color_mask = mark ? 0 : 0xF;
-    return with_stencil(desc, VK_COMPARE_OP_ALWAYS, mark ? VK_STENCIL_OP_REPLACE : VK_STENCIL_OP_ZERO);
+std::string head(const ShaderInputs& inputs) {
+    return include_line("shadow/direct/planar/planar.glsl") + include_line("shadow/scene/light.h") + inputs.text();
 }
 
+/// Light every sample that counts (false), or write a plane's number where it is seen (true).
+std::array<std::shared_ptr<const RasterDesc>, 2> receiver_pipelines(const FrameInput& input,
+                                                                    const ShaderInputs& inputs) {
+    const auto pipeline = [&](bool mark) {
+        return made_once(input.prepared, "planar receivers", hashed(inputs).value(mark).finish().low, [&] {
+            RasterDesc desc = fullscreen({ShaderKind::fragment, "planar-receiver.frag", head(inputs) + receiver_text});
+            desc.constants = {{0, mark ? 1U : 0U}};
+            desc.color_mask = mark ? 0 : 0xF;
+            return sealed(with_stencil(desc, VK_COMPARE_OP_ALWAYS, mark ? VK_STENCIL_OP_REPLACE : VK_STENCIL_OP_ZERO));
+        });
+    };
+    return {pipeline(false), pipeline(true)};
+}
+
+/// By way: + 1 where alpha is tested, + 2 where only fronts cast.
 // No depth test: the stencil knows the plane of each sample, so nothing can fight over it.
 // The viewer is on the light's side of a plane that it sees lit, so that a projected triangle turns as the light sees it.
-RasterDesc caster_pipeline(bool masked, bool one_sided) {
-    RasterDesc desc;
-    desc.cull = one_sided ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
-    desc.vertex = {ShaderKind::vertex, "planar-caster.vert", caster_vertex_text};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "planar-caster.frag", caster_fragment_text};
-    desc.constants = {{0, masked ? 1U : 0U}};
-    return with_stencil(desc, VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_ZERO);
+std::array<std::shared_ptr<const RasterDesc>, 4> caster_pipelines(const FrameInput& input, const ShaderInputs& inputs) {
+    const auto pipeline = [&](unsigned way) {
+        return made_once(input.prepared, "planar casters", hashed(inputs).value(way).finish().low, [&] {
+            RasterDesc desc;
+            desc.cull = (way & 2U) != 0 ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+            desc.vertex = {ShaderKind::vertex, "planar-caster.vert", head(inputs) + caster_vertex_text};
+            desc.fragment =
+                ShaderSource{ShaderKind::fragment, "planar-caster.frag", head(inputs) + caster_fragment_text};
+            desc.constants = {{0, way & 1U}};
+            return sealed(with_stencil(desc, VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_ZERO));
+        });
+    };
+    return {pipeline(0), pipeline(1), pipeline(2), pipeline(3)};
 }
 
 // The planes that this light shines on, turned towards it.
@@ -115,29 +124,33 @@ std::vector<GnPlanarFrame> lit_planes(const FrameInput& input, const ReceiverPla
     return frames;
 }
 
+/// What the receivers' shader reads, of one plane.
+ShaderInputs receiver_inputs(const FrameInput& input, const GnPlanarFrame& frame) {
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, input.samples);
+    inputs.constant("GnLight", "light", input.whole_light().shape).constant("GnPlanarFrame", "frame", frame);
+    return inputs;
+}
+
 void add_receivers(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
+    // First all samples, then plane after plane.
+    std::vector<ShaderInputs> inputs{receiver_inputs(input, {})};
+    for (const GnPlanarFrame& frame : planes) {
+        inputs.push_back(receiver_inputs(input, frame));
+    }
     input.graph.add_pass(
         "planar: receivers",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
             pass.depth_read_only(lent(input.samples.depth, "depth"));
-            pass.sample(input.samples.position);
-            pass.sample(input.samples.normal);
+            inputs.front().declare(pass);
         },
-        [samples = input.samples, light = input.whole_light().shape, planes](Recorder& r) {
-            const auto draw = [&](bool mark, std::uint32_t name, const GnPlanarFrame& frame) {
-                r.bind(receiver_pipeline(mark));
-                r.stencil_reference(name);
-                r.set_value("u_light", light);
-                r.set("position_ws", samples.position);
-                r.set("normal_ws", samples.normal);
-                r.set_value("u", frame);
+        [inputs, pipelines = receiver_pipelines(input, inputs.front())](Recorder& r) {
+            for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+                r.bind(*pipelines[i == 0 ? 0 : 1]);
+                r.stencil_reference(i);
+                inputs[i].set(r);
                 r.draw(3);
-            };
-            // Light every sample that counts, then write each plane's number where it is seen.
-            draw(false, 0, {});
-            for (std::uint32_t i = 0; i < planes.size(); ++i) {
-                draw(true, i + 1, planes[i]);
             }
         });
 }
@@ -162,40 +175,50 @@ void draw_casters(Recorder& r, const Scene& scene, const SceneHandles& handles, 
     }
 }
 
+/// What the casters' shaders read, above one plane; masked ones bring their own texture.
+ShaderInputs caster_inputs(const SceneHandles& handles, const GnPlanarFrame& frame) {
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", handles.positions);
+    inputs.buffer("readonly buffer", "Uvs", "vec2 uvs[];", handles.uvs);
+    inputs.buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors);
+    inputs.texture("sampler2D", "base_color_texture", handles.white);
+    inputs.constant("GnPlanarFrame", "frame", frame);
+    return inputs;
+}
+
 void add_casters(const FrameInput& input, const std::vector<GnPlanarFrame>& planes, TextureHandle image) {
     const CasterSides sides = split_sides(input.scene, caster_kinds(input));
+    std::vector<ShaderInputs> inputs;
+    for (const GnPlanarFrame& frame : planes) {
+        inputs.push_back(caster_inputs(input.handles, frame));
+    }
+    const ShaderInputs declared = caster_inputs(input.handles, {});
     input.graph.add_pass(
         "planar: casters",
         [&](PassBuilder& pass) {
             pass.color(image, Load::keep);
             pass.depth_read_only(lent(input.samples.depth, "depth"));
             pass.indices(input.handles.indices);
-            pass.storage_read(input.handles.positions);
-            pass.storage_read(input.handles.uvs);
-            pass.storage_read(input.handles.colors);
+            declared.declare(pass);
             sample_textures(pass, input.handles);
         },
-        [handles = input.handles, scene = &input.scene, planes, sides](Recorder& r) {
+        [handles = input.handles, scene = &input.scene, inputs, sides,
+         pipelines = caster_pipelines(input, declared)](Recorder& r) {
             // A shadowed sample loses its plane's number, so that no second caster darkens it again.
             const auto any = [](const std::vector<CasterKind>& kinds, CasterKind kind) {
                 return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
             };
-            for (std::uint32_t i = 0; i < planes.size(); ++i) {
-                for (const int way : {0, 1, 2, 3}) {
-                    const bool masked = (way & 1) != 0;
-                    const bool one_sided = (way & 2) != 0;
-                    const std::vector<CasterKind>& kinds = one_sided ? sides.one : sides.both;
+            for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+                for (const unsigned way : {0U, 1U, 2U, 3U}) {
+                    const bool masked = (way & 1U) != 0;
+                    const std::vector<CasterKind>& kinds = (way & 2U) != 0 ? sides.one : sides.both;
                     if (!any(kinds, masked ? CasterKind::masked : CasterKind::opaque)) {
                         continue;
                     }
-                    r.bind(caster_pipeline(masked, one_sided));
+                    r.bind(*pipelines[way]);
                     r.stencil_reference(i + 1);
                     r.index_buffer(handles.indices);
-                    r.set("Positions", handles.positions);
-                    r.set("Uvs", handles.uvs);
-                    r.set("Colors", handles.colors);
-                    r.set_value("u", planes[i]);
-                    r.set("base_color_texture", handles.white);
+                    inputs[i].set(r);
                     r.push_value(AlphaTest{});
                     draw_casters(r, *scene, handles, kinds, masked);
                 }

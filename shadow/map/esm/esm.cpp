@@ -6,6 +6,7 @@
 
 #include "shadow/map/derived.h"
 #include "shadow/map/prefilter.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 /// One texel a sample: a map of twice the side, the samples where they lie in their texel.
 TextureHandle add_spread(const FrameInput& input, TextureHandle samples) {
     static constexpr const char* text = R"(
-layout(binding = 0) uniform sampler2DMSArray samples;
 layout(push_constant) uniform Push { int push_layer; };
 layout(location = 0) out vec4 out_depth;
 void main() {
@@ -30,16 +30,21 @@ void main() {
     desc.samples = 1;
     desc.usage = 0;
     const TextureHandle target = input.graph.create(desc);
+    ShaderInputs inputs;
+    inputs.texture("sampler2DMSArray", "samples", samples);
+    const auto shader = made_once(input.prepared, "spread samples", 0, [&] {
+        return sealed(fullscreen({ShaderKind::fragment, "spread samples", inputs.text() + text}));
+    });
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
         input.graph.add_pass(
             "spread samples",
             [&](PassBuilder& pass) {
-                pass.sample(samples);
+                inputs.declare(pass);
                 pass.color(target, Load::discard, {}, one_layer(layer));
             },
             [=](Recorder& r) {
-                r.bind(fullscreen({ShaderKind::fragment, "spread samples", text}));
-                r.set("samples", samples);
+                r.bind(*shader);
+                inputs.set(r);
                 r.push_value(static_cast<std::int32_t>(layer));
                 r.draw(3);
             });

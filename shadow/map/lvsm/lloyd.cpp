@@ -3,19 +3,16 @@
 // relaxation by one workgroup a map layer.
 //
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
+#include "gpu/shader_inputs.h"
 #include "shadow/frame/history.h"
 #include "shadow/map/lvsm/lvsm_passes.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
 
 constexpr const char* histogram_text = R"(
-#define GN_LLOYD_BEFORE(i) vec3(0)
-#include "shadow/map/lvsm/lloyd.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform GN_DEPTHS depths;
-layout(binding = 1, scalar) buffer Bins { uint bins[]; };
-layout(binding = 2, scalar) uniform Params { GnLvsmParams params; } u;
 float depth_at(ivec2 texel) { return texelFetch(depths, ivec3(texel, gl_GlobalInvocationID.z), 0).r; }
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -45,19 +42,12 @@ void main() {
 )";
 
 constexpr const char* relax_text = R"(
-#include "shadow/map/lvsm/lvsm.h"
 shared vec3 prefix[GN_LVSM_BINS + 1];
 #define GN_LLOYD_BEFORE(i) prefix[i]
 #include "shadow/map/lvsm/lloyd.glsl"
 #define THREADS 128
 #define RUN (GN_LVSM_BINS / THREADS)
 layout(local_size_x = THREADS) in;
-layout(binding = 0, scalar) readonly buffer Bins { uint bins[]; };
-layout(binding = 1, r32f) uniform writeonly image2DArray splits;
-layout(binding = 2, scalar) uniform Lloyd { GnLvsmParams params; } u;
-#ifdef GN_BEFORE
-layout(binding = 3, r32f) uniform readonly image2DArray splits_before;
-#endif
 shared vec3 runs[THREADS];
 void main() {
     int row = int(gl_WorkGroupID.x);
@@ -109,11 +99,53 @@ void main() {
 }
 )";
 
-std::string histogram_for(std::uint32_t samples) {
-    // A multisampled map is judged by its first sample; textureSize has a level for the others only.
-    return samples > 1 ? std::string("#define GN_DEPTHS sampler2DMSArray\n") + histogram_text
-                       : "#define GN_DEPTHS sampler2DArray\n#define textureSize(t) textureSize(t, 0)\n" +
-                             std::string(histogram_text);
+/// A multisampled map is judged by its first sample; textureSize has a level for the others only.
+std::string histogram_head(std::uint32_t samples) {
+    return std::string("#define GN_LLOYD_BEFORE(i) vec3(0)\n#include \"shadow/map/lvsm/lloyd.glsl\"\n") +
+           (samples > 1 ? "" : "#define textureSize(t) textureSize(t, 0)\n");
+}
+
+/// Counts the depths of every layer into its bins.
+void add_histogram(const FrameInput& input, TextureHandle depths, BufferHandle bins, const GnLvsmParams& params) {
+    const TextureDesc source = input.graph.desc(depths);
+    input.graph.add_pass(
+        "lvsm: empty histogram", [&](PassBuilder& pass) { pass.copy_to(bins); },
+        [bins](Recorder& r) { r.fill(bins, 0); });
+    ShaderInputs inputs;
+    inputs.texture(source.samples > 1 ? "sampler2DMSArray" : "sampler2DArray", "depths", depths);
+    inputs.buffer("buffer", "Bins", "uint bins[];", bins).constant("GnLvsmParams", "params", params);
+    const auto shader = compute_once(input.prepared, "lvsm-histogram.comp", hashed(inputs),
+                                     [&] { return histogram_head(source.samples) + inputs.text() + histogram_text; });
+    input.graph.add_pass(
+        "lvsm: histogram", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, source](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch((source.width + 7) / 8, (source.height + 7) / 8, source.layers);
+        });
+}
+
+/// Makes splits of the bins, from those of the frame before where there are any.
+void add_relax(const FrameInput& input, BufferHandle bins, TextureHandle splits, TextureHandle before,
+               std::uint32_t layers, const GnLvsmParams& params) {
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Bins", "uint bins[];", bins);
+    inputs.image("r32f", "writeonly", "image2DArray", "splits", splits);
+    if (before.valid()) {
+        inputs.image("r32f", "readonly", "image2DArray", "splits_before", before);
+    }
+    inputs.constant("GnLvsmParams", "params", params);
+    const auto shader = compute_once(input.prepared, "lvsm-relax.comp", hashed(inputs), [&] {
+        return std::string(before.valid() ? "#define GN_BEFORE\n" : "") + "#include \"shadow/map/lvsm/lvsm.h\"\n" +
+               inputs.text() + relax_text;
+    });
+    input.graph.add_pass(
+        "lvsm: relax", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, layers](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch(layers, 1);
+        });
 }
 
 }  // namespace
@@ -140,45 +172,8 @@ TextureHandle add_lloyd(const FrameInput& input, TextureHandle depths, const GnL
     const BufferHandle bins = graph.create(BufferDesc{
         .name = "lvsm histogram", .bytes = VkDeviceSize{source.layers} * GN_LVSM_BINS * 2 * sizeof(std::uint32_t)});
 
-    graph.add_pass(
-        "lvsm: empty histogram", [&](PassBuilder& pass) { pass.copy_to(bins); },
-        [bins](Recorder& r) { r.fill(bins, 0); });
-    graph.add_pass(
-        "lvsm: histogram",
-        [&](PassBuilder& pass) {
-            pass.sample(depths);
-            pass.storage_write(bins);
-        },
-        [=, text = histogram_for(source.samples)](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "lvsm-histogram.comp", text}});
-            r.set("depths", depths);
-            r.set("Bins", bins);
-            r.set_value("u", params);
-            r.dispatch((source.width + 7) / 8, (source.height + 7) / 8, source.layers);
-        });
-    graph.add_pass(
-        "lvsm: relax",
-        [&](PassBuilder& pass) {
-            pass.storage_read(bins);
-            pass.storage_write(splits);
-            if (before.valid()) {
-                pass.storage_read(before);
-            }
-        },
-        [=, layers = source.layers](Recorder& r) {
-            static const std::array<ComputeDesc, 2> shaders{
-                sealed({.shader = {ShaderKind::compute, "lvsm-relax.comp", relax_text}}),
-                sealed({.shader = {ShaderKind::compute, "lvsm-relax.comp",
-                                   std::string("#define GN_BEFORE\n") + relax_text}})};
-            r.bind(shaders[before.valid() ? 1 : 0]);
-            if (before.valid()) {
-                r.set_storage("splits_before", before);
-            }
-            r.set("Bins", bins);
-            r.set_storage("splits", splits);
-            r.set_value("u", params);
-            r.dispatch(layers, 1);
-        });
+    add_histogram(input, depths, bins, params);
+    add_relax(input, bins, splits, before, source.layers, params);
     return splits;
 }
 

@@ -5,15 +5,13 @@
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 #include "shadow/map/lvsm/lvsm_passes.h"
 #include "shadow/map/prefilter.h"
+#include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
 
 constexpr const char* warp_text = R"(
-#include "shadow/map/lvsm/lvsm.glsl"
-layout(binding = 0) uniform GN_DEPTHS depths;
-layout(binding = 1) uniform sampler2DArray splits;
-layout(binding = 2, scalar) uniform Params { GnLvsmParams params; } u;
 layout(push_constant) uniform Push { int map_layer; int first; };
 layout(location = 0) out vec4 out_moments;
 vec2 moments(vec2 depth, int i) {
@@ -85,25 +83,27 @@ TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHan
                      .layers = source.layers * textures,
                      .mips = drawn_mips(params.prefilter, source.width)};
     const TextureHandle target = input.graph.create(desc);
-    const std::string text =
-        fmt::format("#define GN_DEPTHS {}\n#define GN_SAMPLES {}\n{}",
-                    source.samples > 1 ? "sampler2DMSArray" : "sampler2DArray", source.samples, warp_text);
     // Uniform splits are computed; what is bound then is not read.
     const TextureHandle bound_splits = splits.valid() ? splits : input.handles.white;
+    ShaderInputs inputs;
+    inputs.texture(source.samples > 1 ? "sampler2DMSArray" : "sampler2DArray", "depths", depths);
+    inputs.texture("sampler2DArray", "splits", bound_splits).constant("GnLvsmParams", "params", params);
+    const auto shader = made_once(input.prepared, "lvsm warp", hashed(inputs).value(source.samples).finish().low, [&] {
+        return sealed(fullscreen({ShaderKind::fragment, "lvsm-warp.frag",
+                                  fmt::format("#define GN_SAMPLES {}\n", source.samples) +
+                                      include_line("shadow/map/lvsm/lvsm.glsl") + inputs.text() + warp_text}));
+    });
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
         const Push push{static_cast<int>(layer / textures), static_cast<int>(layer % textures) * 2};
         input.graph.add_pass(
             "lvsm: warp",
             [&](PassBuilder& pass) {
-                pass.sample(depths);
-                pass.sample(bound_splits);
+                inputs.declare(pass);
                 pass.color(target, Load::discard, {}, one_layer(layer));
             },
             [=](Recorder& r) {
-                r.bind(fullscreen({ShaderKind::fragment, "lvsm-warp.frag", text}));
-                r.set("depths", depths);
-                r.set("splits", bound_splits);
-                r.set_value("u", params);
+                r.bind(*shader);
+                inputs.set(r);
                 r.push_value(push);
                 r.draw(3);
             });

@@ -27,8 +27,8 @@ ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const Light
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Sum.
-    const TextureHandle sums =
-        add_sat(input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box});
+    const TextureHandle sums = add_sat(
+        input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box}, input.prepared);
     return {.offers = {{"sums", sums, nearest()}}};
 }
 

@@ -11,6 +11,7 @@
 #include "shadow/geometry/edges.h"
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 
 namespace gn {
@@ -19,11 +20,6 @@ namespace {
 constexpr const char* vertex_text = R"(
 #include "shadow/casters/tiles.glsl"
 layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 2, scalar) readonly buffer Indices { uvec3 triangles[]; };
-layout(binding = 3, scalar) readonly buffer Edges { uvec2 edges[]; };
-layout(binding = 4, scalar) readonly buffer First { uint first[]; };
-layout(binding = 5, scalar) readonly buffer Around { uint around[]; };
 #ifdef GN_TILES
 layout(push_constant) uniform Push { int layer; };
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
@@ -121,7 +117,6 @@ void main() {
 
 constexpr const char* fragment_text = R"(
 #include "shadow/map/silhouette_map/silhouette_map.glsl"
-layout(binding = 6) uniform sampler2DArray depth_map;
 layout(push_constant) uniform Push { int view; int map_layer; };
 layout(location = 0) flat in vec4 in_segment;
 layout(location = 1) flat in vec4 in_depth_over_w;
@@ -193,39 +188,36 @@ struct Push {
     int view, map_layer;
 };
 
-RasterDesc edge_pipeline(bool tiles) {
+RasterDesc edge_pipeline(const ShaderInputs& inputs, bool tiles) {
+    // The block Views comes first.
+    const std::string head = (tiles ? "#define GN_TILES\n" : "") + inputs.text(1);
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, "silhouettes.vert",
-                   std::string(tiles ? "#define GN_TILES\n" : "") + vertex_text};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "silhouettes.frag", fragment_text};
+    desc.vertex = {ShaderKind::vertex, "silhouettes.vert", head + vertex_text};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "silhouettes.frag", head + fragment_text};
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_LESS;
-    return desc;
+    return sealed(std::move(desc));
 }
 
-struct EdgeHandles {
-    BufferHandle edges, first, around;
+/// What every view's pass draws with.
+struct EdgeDraw {
+    std::shared_ptr<const RasterDesc> shader;
+    ShaderInputs inputs, view_inputs;
     BufferHandle tile_draw;  ///< with tiles
-    ShaderInputs views;
+    std::uint32_t edges = 0;
 };
 
-void draw_edges(Recorder& r, const SceneHandles& handles, const EdgeHandles& buffers, const LightViews& views,
-                const ViewPass& view, TextureHandle depth, std::uint32_t count) {
+void draw_edges(Recorder& r, const EdgeDraw& draw, const LightViews& views, const ViewPass& view) {
     if (!views.tiles) {
         const vec4 rect = views.views[view.index].rect_ts * views.views[view.index].resolution;
         r.scissor(static_cast<std::int32_t>(rect.x), static_cast<std::int32_t>(rect.y),
                   static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
     }
-    r.bind(edge_pipeline(views.tiles));
-    buffers.views.set(r);
-    r.set("Positions", handles.positions);
-    r.set("Indices", handles.indices);
-    r.set("Edges", buffers.edges);
-    r.set("First", buffers.first);
-    r.set("Around", buffers.around);
-    r.set("depth_map", depth);
+    r.bind(*draw.shader);
+    draw.view_inputs.set(r);
+    draw.inputs.set(r);
     r.push_value(Push{static_cast<int>(view.index), static_cast<int>(view.layer)});
-    views.tiles ? r.draw_indirect(buffers.tile_draw) : r.draw(6 * count);
+    views.tiles ? r.draw_indirect(draw.tile_draw) : r.draw(6 * draw.edges);
 }
 
 }  // namespace
@@ -242,9 +234,17 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     const TextureHandle nearest_edge = graph.create(desc);
 
     const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input);
-    const EdgeHandles buffers{graph.import(edges->edges), graph.import(edges->first), graph.import(edges->around),
-                              views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{},
-                              view_inputs(views)};
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions);
+    inputs.buffer("readonly buffer", "Indices", "uvec3 triangles[];", input.handles.indices);
+    inputs.buffer("readonly buffer", "Edges", "uvec2 edges[];", graph.import(edges->edges));
+    inputs.buffer("readonly buffer", "First", "uint first[];", graph.import(edges->first));
+    inputs.buffer("readonly buffer", "Around", "uint around[];", graph.import(edges->around));
+    inputs.texture("sampler2DArray", "depth_map", depth);
+    const auto shader = made_once(input.prepared, "silhouettes", views.tiles ? 1 : 0,
+                                  [&] { return edge_pipeline(inputs, views.tiles); });
+    const EdgeDraw draw{shader, inputs, view_inputs(views),
+                        views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{}, edges->count};
     const ClearValue middle{.color = vec4(glsl::gn_silhouette_pack(vec2(0.5F)), 0, 0, 0)};
     LightViews drawn = views;
     drawn.layered = false;
@@ -256,18 +256,14 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
                 pass.color(points, load, middle, one_layer(view.layer));
                 pass.depth(nearest_edge, load, {.depth = 1.0F}, one_layer(view.layer));
                 if (views.tiles) {
-                    pass.indirect(buffers.tile_draw);
+                    pass.indirect(draw.tile_draw);
                 }
-                pass.sample(depth);
-                for (const BufferHandle buffer :
-                     {input.handles.positions, input.handles.indices, buffers.edges, buffers.first, buffers.around}) {
-                    pass.storage_read(buffer);
-                }
-                buffers.views.declare(pass);
+                draw.inputs.declare(pass);
+                draw.view_inputs.declare(pass);
             },
-            [edges, buffers, views, view, depth, handles = input.handles](Recorder& r) {
-                if (edges->count > 0) {
-                    draw_edges(r, handles, buffers, views, view, depth, edges->count);
+            [edges, draw, views, view](Recorder& r) {
+                if (draw.edges > 0) {
+                    draw_edges(r, draw, views, view);
                 }
             });
     }

@@ -9,19 +9,13 @@
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
+#include "shadow/receiver/sample_pass.h"
 
 namespace gn {
 namespace {
 
 constexpr const char* filter_text = R"(
-#include "shadow/view/view.glsl"
-#include "shadow/visibility/bilateral/bilateral.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D gbuffer_position;
-layout(binding = 1) uniform sampler2D gbuffer_normal;
-layout(binding = 2) uniform sampler2D noisy;
-layout(binding = 3, GN_V_FORMAT) uniform writeonly image2D filtered;
-layout(binding = 4, scalar) uniform Constants { GnViewConstants view; GnLight light; GnBilateralParams params; } u;
 layout(push_constant) uniform Push { ivec2 axis; };
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -29,8 +23,8 @@ void main() {
     if (any(greaterThanEqual(pixel, size))) {
         return;
     }
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    vec4 normal = texelFetch(gbuffer_normal, pixel, 0);
+    vec4 position = gbuffer_position_texel(pixel);
+    vec4 normal = gbuffer_normal_texel(pixel);
     if (position.w < 0.5 || !gn_counted(u.light, position.xyz, normal.xyz)) {
         imageStore(filtered, pixel, vec4(0.0));
         return;
@@ -48,8 +42,8 @@ void main() {
         if (i == 0 || any(lessThan(neighbour, ivec2(0))) || any(greaterThanEqual(neighbour, size))) {
             continue;
         }
-        vec4 q = texelFetch(gbuffer_position, neighbour, 0);
-        vec3 q_n = texelFetch(gbuffer_normal, neighbour, 0).xyz;
+        vec4 q = gbuffer_position_texel(neighbour);
+        vec3 q_n = gbuffer_normal_texel(neighbour).xyz;
         if (q.w < 0.5 || !gn_counted(u.light, q.xyz, q_n)) {
             continue;
         }
@@ -62,35 +56,29 @@ void main() {
 }
 )";
 
-struct Constants {
-    GnViewConstants view;
-    GnLight light;
-    GnBilateralParams params;
-};
-
 /// One direction of the filter.
 TextureHandle add_direction(const FrameInput& input, const GnBilateralParams& params, TextureHandle noisy, ivec2 axis) {
     const ViewSamples& samples = input.samples;
     const uint channels = channels_of(input.graph, noisy);
     const TextureHandle filtered = create_visibility(input.graph, samples, channels);
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, samples);
+    inputs.texture("sampler2D", "noisy", noisy);
+    inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "filtered", filtered);
+    inputs.constant("GnViewConstants", "view", samples.constants)
+        .constant("GnLight", "light", input.light().shape)
+        .constant("GnBilateralParams", "params", params);
+    const auto shader = compute_once(input.prepared, "bilateral", hashed(inputs), [&] {
+        return expect_text(input.device) + channels_text(channels) + include_line("shadow/view/view.glsl") +
+               include_line("shadow/visibility/bilateral/bilateral.glsl") + inputs.text() + filter_text;
+    });
     input.graph.add_pass(
-        axis.x != 0 ? "bilateral x" : "bilateral y",
-        [&](PassBuilder& pass) {
-            pass.sample(samples.position);
-            pass.sample(samples.normal);
-            pass.sample(noisy);
-            pass.storage_write(filtered);
-        },
-        [samples, noisy, filtered, axis, text = expect_text(input.device) + channels_text(channels) + filter_text,
-         constants = Constants{samples.constants, input.light().shape, params}](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "bilateral.comp", text}});
-            r.set("gbuffer_position", samples.position);
-            r.set("gbuffer_normal", samples.normal);
-            r.set("noisy", noisy);
-            r.set_storage("filtered", filtered);
-            r.set_value("u", constants);
+        axis.x != 0 ? "bilateral x" : "bilateral y", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, axis, size = uvec2(samples.width, samples.height)](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
             r.push_value(axis);
-            r.dispatch_pixels(samples.width, samples.height);
+            r.dispatch_pixels(size.x, size.y);
         });
     return filtered;
 }
