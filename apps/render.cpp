@@ -123,14 +123,15 @@ FrameResult render_smooth(Device& device, SceneGpu& gpu, const Camera& camera, c
     options.width = static_cast<uint>(size.width);
     options.height = static_cast<uint>(size.height);
     options.repeat = 0;
-    FrameResult result = render_frame(device, gpu, camera, recipe, options);
+    const PreparedRecipe prepared(device, recipe);
+    FrameResult result = render_frame(gpu, camera, prepared, options);
     const bool served =
         std::any_of(result.refused.begin(), result.refused.end(), [](const auto& r) { return r.empty(); });
     options.samples = options.visibility = false;
     for (int k = 1; served && k < frames; ++k) {
         Camera moved = camera;
         moved.shift_cs = 2.0F * even_shift(k) / vec2(size.width, size.height);
-        const FrameResult frame = render_frame(device, gpu, moved, recipe, options);
+        const FrameResult frame = render_frame(gpu, moved, prepared, options);
         for (std::size_t i = 0; i < result.picture.values.size(); ++i) {
             result.picture.values[i] += frame.picture.values[i];
         }

@@ -298,7 +298,8 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     frame_options.repeat = options.repeat;
     frame_options.only_light = view.only_light();
     frame_options.samples = false;
-    const FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.camera(), asked.recipe, frame_options);
+    const PreparedRecipe prepared(bench.device(), asked.recipe);
+    const FrameResult frame = render_frame(view.gpu(bench), view.camera(), prepared, frame_options);
 
     run.remarks = frame.remarks;
 
@@ -318,7 +319,7 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     }
     show_inside(run, view, bench, asked.recipe, served, names);
     if (view.path() != nullptr) {
-        measure_path(run, view, bench, asked.recipe);
+        measure_path(run, view, bench, prepared);
     }
 
     // What the validation layers say makes every figure doubtful.

@@ -23,7 +23,7 @@ struct PathFrame {
     }
 };
 
-PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_t index, const RunResult& run,
+PathFrame draw(ViewSession& view, Bench& bench, const PreparedRecipe& recipe, std::size_t index, const RunResult& run,
                History& history) {
     FrameOptions options;
     options.width = static_cast<uint>(run.width);
@@ -32,7 +32,7 @@ PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_
     options.only_light = view.only_light();
     options.picture = false;
     options.history = &history;
-    FrameResult frame = render_frame(bench.device(), view.gpu(bench), view.path()->frames[index], recipe, options);
+    FrameResult frame = render_frame(view.gpu(bench), view.path()->frames[index], recipe, options);
     PathFrame kept{std::move(frame.samples), {}};
     for (std::size_t l = 0; l < frame.visibility.size(); ++l) {
         kept.errors.emplace_back();
@@ -48,7 +48,7 @@ PathFrame draw(ViewSession& view, Bench& bench, const Recipe& recipe, std::size_
 
 }  // namespace
 
-void measure_path(RunResult& run, ViewSession& view, Bench& bench, const Recipe& recipe) {
+void measure_path(RunResult& run, ViewSession& view, Bench& bench, const PreparedRecipe& recipe) {
     const std::size_t frames = view.path()->frames.size();
     std::vector<Flicker> of_light(view.scene().lights.size());
     History history(bench.device());

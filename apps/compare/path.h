@@ -8,6 +8,6 @@ namespace gn {
 
 /// Draws every frame of the view's path, one after the other with one history as a game does, and holds T - R of each
 /// against that of the frame before. Fills `flicker` of the run and of its lights that were served.
-void measure_path(RunResult& run, ViewSession& view, Bench& bench, const Recipe& recipe);
+void measure_path(RunResult& run, ViewSession& view, Bench& bench, const PreparedRecipe& recipe);
 
 }  // namespace gn

@@ -7,6 +7,8 @@ struct Session::State {
     std::unique_ptr<Device> device;
     std::optional<Scene> scene;
     std::optional<SceneGpu> uploaded;
+    std::string recipe;                        ///< what `prepared` was asked for as
+    std::unique_ptr<PreparedRecipe> prepared;  ///< of the frame before
 };
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -63,7 +65,11 @@ Result<FrameResult> Session::render(const Camera& camera, const std::string& rec
         if (options.width == 0 || options.height == 0) {
             fail("render at {} x {} pixels; at least 1 x 1 is needed", options.width, options.height);
         }
-        return render_frame(*state_->device, *state_->uploaded, camera, load_recipe(recipe), options);
+        if (state_->prepared == nullptr || state_->recipe != recipe) {
+            state_->prepared = std::make_unique<PreparedRecipe>(*state_->device, load_recipe(recipe));
+            state_->recipe = recipe;
+        }
+        return render_frame(*state_->uploaded, camera, *state_->prepared, options);
     });
 }
 

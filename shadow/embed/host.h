@@ -41,7 +41,8 @@ class Session {
     /// The scene as it was completed; null before set_scene.
     [[nodiscard]] const Scene* scene() const noexcept;
 
-    /// V of every light (and the picture, when asked for) by a recipe: a name, a file, with overrides.
+    /// V of every light (and the picture, when asked for) by a recipe: a name, a file, with overrides. Its file is read where
+    /// another recipe was asked for before, not in every frame.
     Result<FrameResult> render(const Camera& camera, const std::string& recipe, const FrameOptions& options) noexcept;
 
   private:

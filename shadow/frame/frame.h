@@ -82,6 +82,9 @@ struct FrameOptions {
 
 /// Renders one view of the scene with one recipe, waits and reads back: what measuring does. Throws Error; refusals per light
 /// are in the result.
+FrameResult render_frame(SceneGpu& scene, const Camera& camera, const PreparedRecipe& recipe,
+                         const FrameOptions& options);
+/// The same with a recipe that is prepared for this frame alone.
 FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                          const FrameOptions& options);
 /// Only the view samples, for the truth.

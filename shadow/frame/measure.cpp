@@ -106,8 +106,14 @@ std::string recipe_text(const Recipe& recipe) {
 
 FrameResult render_frame(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
                          const FrameOptions& options) {
+    return render_frame(scene, camera, PreparedRecipe(device, recipe), options);
+}
+
+FrameResult render_frame(SceneGpu& scene, const Camera& camera, const PreparedRecipe& prepared,
+                         const FrameOptions& options) {
+    Device& device = prepared.device();
+    const Recipe& recipe = prepared.recipe();
     HistoryStep step(options.history);
-    const PreparedRecipe prepared(device, recipe);
     FrameGraph graph(device);
     FrameResult result;
     result.remarks = remarks_of(recipe, *scene.scene);
