@@ -4,6 +4,7 @@
 #include "apps/output.h"
 #include "base/paths.h"
 #include "gpu/hash.h"
+#include "reference/truth_picture.h"
 
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
@@ -67,6 +68,10 @@ void add_scene(Hasher& hasher, const Scene& scene) {
         hasher.text(light.name).bytes(&light.shape, sizeof light.shape);
         add_values(hasher, light.spared);
     }
+    hasher.value(scene.environment.has_value());
+    if (scene.environment) {
+        hasher.bytes(&scene.environment->shape, sizeof(GnLight)).bytes(&scene.environment->sky, sizeof(GnSky));
+    }
 }
 
 /// A camera by its fields: between them there may be padding.
@@ -89,10 +94,6 @@ void add_recipe(Hasher& hasher, const Recipe& recipe) {
     for (const auto& [id, block] : recipe.params) {
         hasher.text(id).bytes(block.bytes().data(), block.bytes().size());
     }
-}
-
-std::size_t pixels(int width, int height) {
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
 }  // namespace
@@ -137,9 +138,10 @@ std::string ResultCache::run_key(const std::string& view_key, const Recipe& reci
     return hasher.finish().hex();
 }
 
-std::string ResultCache::truth_key(const std::string& view_key, const CpuSamples& samples, std::size_t light) const {
+std::string ResultCache::truth_key(const std::string& view_key, const CpuSamples& samples, std::size_t light,
+                                   int channels) const {
     Hasher hasher;
-    hasher.text(view_key).value(light);
+    hasher.text(view_key).value(light).value(channels);
     add_values(hasher, samples.position_ws);
     add_values(hasher, samples.normal_ws);
     return hasher.finish().hex();
@@ -213,7 +215,7 @@ void ResultCache::store(const std::string& key, const ReferenceResult& reference
     }
 }
 
-std::optional<TruthResult> ResultCache::find_truth(const std::string& key, int width, int height) const {
+std::optional<TruthResult> ResultCache::find_truth(const std::string& key, int width, int height, int channels) const {
     std::error_code code;
     if (!read_ || !fs::is_regular_file(file("truth", key, "json"), code)) {
         return std::nullopt;
@@ -222,15 +224,10 @@ std::optional<TruthResult> ResultCache::find_truth(const std::string& key, int w
         // V, its standard error and whether the sample counts stand in one picture.
         const Image stored = read_exr(file("truth", key, "exr"));
         const auto numbers = nlohmann::ordered_json::parse(read_text(file("truth", key, "json")));
-        if (stored.width != width || stored.height != height || stored.channels != 3) {
+        if (stored.width != width || stored.height != height || stored.channels != truth_picture_channels(channels)) {
             return std::nullopt;
         }
-        TruthResult truth;
-        for (std::size_t p = 0; p < pixels(width, height); ++p) {
-            truth.visibility.push_back(stored.values[3 * p]);
-            truth.standard_error.push_back(stored.values[3 * p + 1]);
-            truth.counted.push_back(stored.values[3 * p + 2] > 0.5F ? 1 : 0);
-        }
+        TruthResult truth = truth_of_picture(stored);
         truth.seconds = numbers.at("seconds");
         truth.mean_standard_error = numbers.at("mean_standard_error");
         return truth;
@@ -244,17 +241,12 @@ void ResultCache::store(const std::string& key, const TruthResult& truth, int wi
     if (folder_.empty()) {
         return;
     }
-    Image stored(width, height, 3);
-    for (std::size_t p = 0; p < pixels(width, height); ++p) {
-        stored.values[3 * p] = truth.visibility[p];
-        stored.values[3 * p + 1] = truth.standard_error[p];
-        stored.values[3 * p + 2] = truth.counted[p] != 0 ? 1.0F : 0.0F;
-    }
+    const Image stored = picture_of_truth(truth, width, height);
     // The numbers come last: they say that the picture is complete.
     const nlohmann::ordered_json numbers{{"seconds", truth.seconds},
                                          {"mean_standard_error", truth.mean_standard_error}};
     keep([&] {
-        write_exr(file("truth", key, "exr"), stored);
+        write_exr(file("truth", key, "exr"), stored, truth_picture_names(stored.channels));
         write_text(file("truth", key, "json"), dump(numbers, 1));
     });
 }

@@ -24,16 +24,17 @@ class ResultCache {
     [[nodiscard]] std::string view_key(const Scene& scene, const std::string& asked, const Camera& camera,
                                        const CameraPath* path) const;
     [[nodiscard]] std::string run_key(const std::string& view_key, const Recipe& recipe, const Recipe* against) const;
-    /// The truth depends on the very samples that were rendered.
-    [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples,
-                                        std::size_t light) const;
+    /// The truth, of 1 channel or 3, depends on the very samples that were rendered.
+    [[nodiscard]] std::string truth_key(const std::string& view_key, const CpuSamples& samples, std::size_t light,
+                                        int channels = 1) const;
 
     /// Nothing when absent, unreadable, or when a picture that it names is gone.
     [[nodiscard]] std::optional<RunResult> find_run(const std::string& key) const;
     void store(const std::string& key, const RunResult& run) const;
     [[nodiscard]] std::optional<ReferenceResult> find_reference(const std::string& key) const;
     void store(const std::string& key, const ReferenceResult& reference) const;
-    [[nodiscard]] std::optional<TruthResult> find_truth(const std::string& key, int width, int height) const;
+    [[nodiscard]] std::optional<TruthResult> find_truth(const std::string& key, int width, int height,
+                                                        int channels = 1) const;
     void store(const std::string& key, const TruthResult& truth, int width, int height) const;
 
   private:

@@ -90,6 +90,7 @@ void ViewSession::prepare(Bench& bench, const ResultCache& cache, Progress& prog
     if (ready_) {
         return;
     }
+    cache_ = &cache;
     if (samples_.position_ws.empty()) {
         samples_ = render_samples(bench.device(), gpu(bench), camera_, static_cast<uint>(options_.size.width),
                                   static_cast<uint>(options_.size.height));
@@ -113,14 +114,15 @@ std::vector<std::uint8_t> ViewSession::beside_shadow(std::size_t light, std::spa
     return rims;
 }
 
-TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
+TruthResult ViewSession::truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light, int channels,
                                   const std::function<void(double)>& progress) {
-    const std::string key = cache.truth_key(key_, samples, light);
-    std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height);
+    const std::string key = cache.truth_key(key_, samples, light, channels);
+    std::optional<TruthResult> truth = cache.find_truth(key, options_.size.width, options_.size.height, channels);
     if (!truth) {
-        truth = tracer().trace(samples.position_ws, samples.normal_ws, scene_->lights[light],
-                               {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested},
-                               progress);
+        truth = tracer().trace(
+            samples.position_ws, samples.normal_ws, scene_->lights[light],
+            {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested, .channels = channels},
+            progress);
         if (!truth->complete) {
             throw Stopped();
         }
@@ -137,13 +139,7 @@ const TruthResult& ViewSession::truth(std::size_t light, int channels) {
     colour_truth_.resize(truth_.size());
     std::optional<TruthResult>& kept = colour_truth_.at(light);
     if (!kept) {
-        kept = tracer().trace(
-            samples_.position_ws, samples_.normal_ws, scene_->lights[light],
-            {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested, .channels = channels});
-        if (!kept->complete) {
-            kept.reset();
-            throw Stopped();
-        }
+        kept = truth_of(*cache_, samples_, light, channels, {});
     }
     return *kept;
 }
@@ -155,7 +151,7 @@ void ViewSession::trace_lights(const ResultCache& cache, Progress& progress) {
         if (!wanted(l) || truth_[l]) {
             continue;
         }
-        truth_[l] = truth_of(cache, samples_, l, [&](double part) { progress.within((done + part) / count); });
+        truth_[l] = truth_of(cache, samples_, l, 1, [&](double part) { progress.within((done + part) / count); });
         done += 1;
     }
 }
@@ -171,7 +167,7 @@ void ViewSession::trace_path(Bench& bench, const ResultCache& cache, Progress& p
         std::vector<PathTruth> lights(truth_.size());
         for (std::size_t l = 0; l < lights.size(); ++l) {
             if (wanted(l)) {
-                TruthResult truth = truth_of(cache, samples, l, {});
+                TruthResult truth = truth_of(cache, samples, l, 1, {});
                 path_seconds_ += truth.seconds;
                 lights[l] = {std::move(truth.visibility), std::move(truth.counted)};
             }

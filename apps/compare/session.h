@@ -43,7 +43,8 @@ class ViewSession {
     /// `against`: what all recipes are held against besides the truth, or null.
     ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against);
 
-    /// Traces (or finds in the cache) what is missing of the truth. May be called again. Throws Error, and Stopped.
+    /// Traces (or finds in the cache) what is missing of the truth. May be called again. The cache must outlive the session.
+    /// Throws Error, and Stopped.
     void prepare(Bench& bench, const ResultCache& cache, Progress& progress);
     /// Forgets everything that lives on the device.
     void release_device() { gpu_.reset(); }
@@ -66,7 +67,7 @@ class ViewSession {
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const TruthResult& truth(std::size_t light) const { return *truth_.at(light); }
-    /// The same with 1 or 3 channels; three are traced when they are first asked for. Throws Stopped.
+    /// The same with 1 or 3 channels; three are traced, or found in the cache, when they are first asked for. Throws Stopped.
     const TruthResult& truth(std::size_t light, int channels);
     [[nodiscard]] const CpuSamples& samples() const { return samples_; }
     [[nodiscard]] const CameraPath* path() const { return path_; }  ///< null where none is followed
@@ -88,7 +89,7 @@ class ViewSession {
     void trace_lights(const ResultCache& cache, Progress& progress);
     void trace_path(Bench& bench, const ResultCache& cache, Progress& progress);
     /// From the cache, or traced. Throws Stopped.
-    TruthResult truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light,
+    TruthResult truth_of(const ResultCache& cache, const CpuSamples& samples, std::size_t light, int channels,
                          const std::function<void(double)>& progress);
     void account(const ResultCache& cache, Bench& bench);
     const CompareOptions& options_;
@@ -98,6 +99,7 @@ class ViewSession {
     Camera camera_;
     int only_light_ = -1;
     std::string key_;
+    const ResultCache* cache_ = nullptr;  ///< of prepare
     std::optional<SceneGpu> gpu_;
     CpuSamples samples_;
     std::optional<Truth> tracer_;

@@ -153,6 +153,7 @@ Scene flatten(const Model& model) {
     Scene scene;
     scene.materials = model.materials;
     scene.textures = model.textures;
+    scene.environment = model.environment;
     scene.notes = model.notes;
     scene.origin = find_origin(model);
 
@@ -265,6 +266,7 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model) {
     take(whole.materials, part.materials);
     take(whole.textures, part.textures);
     take(whole.lights, part.lights);
+    whole.environment = whole.environment ? whole.environment : part.environment;
     take(whole.cameras, part.cameras);
     take(whole.paths, part.paths);
     for (std::string& sentence : part.notes) {

@@ -205,6 +205,7 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
             model.cameras.push_back(std::move(*camera));
         }
     }
+    model.environment = load_environment(file);
     note_coarse(file);
     for (std::string& sentence : file.notes) {
         add_note(model.notes, std::move(sentence));

@@ -97,6 +97,9 @@ std::span<const char* const> order_keys();
 
 /// A node's light; nothing where the node has none or it is unusable (with a note).
 std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node);
+/// What extras.gnomon of the scene that is shown says of the light from everywhere; nothing where it says nothing, or (with
+/// a note) nothing usable.
+std::optional<Light> load_environment(File& file);
 std::optional<PlacedCamera> load_camera(File& file, const tinygltf::Node& node, const dmat4& ws_from_node);
 
 /// World matrices of all nodes of the scene, in the order of a depth-first walk; throws Error unless it is a forest.

@@ -48,6 +48,7 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<PlacedLight> lights;
+    std::optional<Light> environment;  ///< unset: the file says nothing
     std::vector<PlacedCamera> cameras;
     std::vector<PlacedPath> paths;
     std::vector<std::string> notes;

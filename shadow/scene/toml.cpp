@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // .toml scenes: files, lights, cameras and camera paths placed by hand. docs/scenes.md has the keys.
+#include "shadow/scene/given_sky.h"
 #include "shadow/scene/model.h"
 #include "shadow/scene/toml_table.h"
 #include "shadow/scene/upright.h"
@@ -187,6 +188,29 @@ void add_light(const TomlTable& table, Model& model) {
     model.lights.push_back(std::move(placed));
 }
 
+Light read_environment(const TomlTable& table) {
+    table.check_keys(sky_keys);
+    const auto number = [&](std::string_view key) {
+        return table.has(key) ? std::optional(table.number(key, 0)) : std::nullopt;
+    };
+    const auto color = [&](std::string_view key) {
+        return table.has(key) ? std::optional(table.vector(key, dvec3(0))) : std::nullopt;
+    };
+    const GivenSky given{.name = clean_text(table.text("name", "")),
+                         .radiance = number("radiance"),
+                         .illuminance = number("illuminance"),
+                         .color = color("color"),
+                         .above = color("above"),
+                         .below = color("below"),
+                         .zenith = color("zenith"),
+                         .horizon = color("horizon"),
+                         .seen = number("seen")};
+    if (const std::string mistake = sky_mistake(given); !mistake.empty()) {
+        fail("{}: {}", table.where(), mistake);
+    }
+    return light_of(given);
+}
+
 PlacedCamera read_camera(const TomlTable& table, const PlacedCamera& before) {
     PlacedCamera placed = before;
     placed.position_ws = table.vector("position", before.position_ws);
@@ -290,7 +314,7 @@ Model load_toml(const std::filesystem::path& path, const Assets& assets) {
         fail("{}: line {}: {}", shown, problem.source().begin.line, clean_text(problem.description()));
     }
 
-    static constexpr std::array<std::string_view, 5> keys{"file", "object", "light", "camera", "path"};
+    static constexpr std::array<std::string_view, 6> keys{"file", "object", "light", "environment", "camera", "path"};
     const TomlTable table(root, shown);
     table.check_keys(keys);
     const Folder folder(path, assets);
@@ -300,6 +324,9 @@ Model load_toml(const std::filesystem::path& path, const Assets& assets) {
     Model model;
     for (const TomlTable& light : table.tables("light")) {
         add_light(light, model);
+    }
+    if (const std::optional<TomlTable> sky = table.inner("environment")) {
+        model.environment = read_environment(*sky);
     }
     for (const TomlTable& camera : table.tables("camera")) {
         add_camera(camera, model);

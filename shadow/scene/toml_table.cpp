@@ -68,6 +68,17 @@ dvec3 TomlTable::vector(std::string_view key, dvec3 otherwise) const {
     return values ? dvec3((*values)[0], (*values)[1], (*values)[2]) : otherwise;
 }
 
+std::optional<TomlTable> TomlTable::inner(std::string_view key) const {
+    if (!has(key)) {
+        return std::nullopt;
+    }
+    const toml::table* table = table_.get_as<toml::table>(key);
+    if (table == nullptr) {
+        wrong(key, fmt::format("a table, written [{}]", key));
+    }
+    return TomlTable(*table, fmt::format("{}: [{}]", where_, key));
+}
+
 std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
     std::vector<TomlTable> found;
     if (!has(key)) {

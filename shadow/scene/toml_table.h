@@ -29,6 +29,8 @@ class TomlTable {
     /// `count` numbers.
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const;
     [[nodiscard]] dvec3 vector(std::string_view key, dvec3 otherwise) const;
+    /// The table [key] inside this one; nothing where there is none.
+    [[nodiscard]] std::optional<TomlTable> inner(std::string_view key) const;
     /// The tables of [[key]] inside this one.
     [[nodiscard]] std::vector<TomlTable> tables(std::string_view key) const;
     [[nodiscard]] const std::string& where() const { return where_; }

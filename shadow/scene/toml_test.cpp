@@ -96,7 +96,8 @@ TEST(Toml, MistakesAreNamedWithTheirPlace) {
     const TempFolder folder;
     folder.write("a.obj", corner);
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"[[lihgt]]\nkind = \"spot\"\n", "unknown key 'lihgt'; known are file, object, light, camera, path"},
+        {"[[lihgt]]\nkind = \"spot\"\n",
+         "unknown key 'lihgt'; known are file, object, light, environment, camera, path"},
         {"[[light]]\nkind = \"spot\"\nsize2 = 1\n", "[[light]] 1: unknown key 'size2'; known are kind, name"},
         {"[[light]]\nkind = \"moon\"\n", "key 'kind' must be directional, spot, point or rectangle"},
         {"[[light]]\nkind = \"point\"\nradius = -1\n", "key 'radius' must be 0 or more"},
