@@ -96,10 +96,11 @@ void show_part(const Part& part) {
     for (const Feature feature : part.features) {
         features += fmt::format("{}{}", features.empty() ? "" : ", ", feature_name(feature));
     }
+    const std::vector<std::string_view> read = words_read(part);
+    const std::vector<std::string_view> given = words_given(part);
     fmt::print("  source    [{}]\n  lights    {}\n", part.citation, part.lights.names());
-    fmt::print("{}",
-               part.needs.empty() ? "" : fmt::format("  reads     maps that give {}\n", fmt::join(part.needs, ", ")));
-    fmt::print("{}", part.gives.empty() ? "" : fmt::format("  gives     {}\n", fmt::join(part.gives, ", ")));
+    fmt::print("{}", read.empty() ? "" : fmt::format("  reads     maps that give {}\n", fmt::join(read, ", ")));
+    fmt::print("{}", given.empty() ? "" : fmt::format("  gives     {}\n", fmt::join(given, ", ")));
     fmt::print("{}", features.empty() ? "" : fmt::format("  features  {}\n", features));
     fmt::print("  recipes   {}\n\n", users_of(part));
     // The page itself, then the rows.

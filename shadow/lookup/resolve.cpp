@@ -73,12 +73,7 @@ std::string arguments(const ShadowMap& map, std::span<const std::string_view> na
 }
 
 std::vector<std::string_view> read_by(const Part& lookup) {
-    std::vector<std::string_view> names;
-    for (const std::string_view need : lookup.needs) {
-        if (need != "filterable") {
-            names.push_back(need);
-        }
-    }
+    std::vector<std::string_view> names = lookup.needs;
     names.insert(names.end(), lookup.optional.begin(), lookup.optional.end());
     return names;
 }

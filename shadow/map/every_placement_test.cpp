@@ -42,7 +42,7 @@ TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
         for (const Part* map : all_parts()) {
             // A convolution map's step is a ramp of 1 / 32 of the range: over the whole ground as high as the box.
             const bool deep = placement == "cube" || placement == "single" || placement == "cascades";
-            if (map->stage == Stage::map && holds(map->gives, "filterable") && !(deep && map->id == "convolution")) {
+            if (map->stage == Stage::map && map->filterable && !(deep && map->id == "convolution")) {
                 // A paraboloid spreads a hemisphere over what three faces of a cube and a half share.
                 const int resolution = placement == "paraboloid" ? 1024 : 512;
                 const std::string recipe =

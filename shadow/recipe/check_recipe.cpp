@@ -29,7 +29,8 @@ std::string joined(std::span<const std::string_view> names) {
 }
 
 bool gives_all(const Part& map, const Part& lookup) {
-    return std::all_of(lookup.needs.begin(), lookup.needs.end(),
+    return (map.filterable || !lookup.filters) &&
+           std::all_of(lookup.needs.begin(), lookup.needs.end(),
                        [&](std::string_view need) { return map_gives(map, need); });
 }
 
@@ -46,8 +47,8 @@ std::string mismatch_of(const Part& map, const Part& lookup) {
         return {};
     }
     return fmt::format("lookup '{}' reads {} but map '{}' gives {}; maps that give {}: {}; lookups that read '{}': {}",
-                       lookup.id, joined(lookup.needs), map.id, joined(map.gives), joined(lookup.needs),
-                       maps_for(lookup), map.id, lookups_for(map));
+                       lookup.id, joined(words_read(lookup)), map.id, joined(words_given(map)),
+                       joined(words_read(lookup)), maps_for(lookup), map.id, lookups_for(map));
 }
 
 /// The sentence why what the recipe keeps of its casters does not fit its parts or the scene, or "".
@@ -113,7 +114,7 @@ bool serves_some(const Part& placement, const Scene& scene) {
 void check_complete(const Recipe& recipe) {
     if (recipe.lookup != nullptr && recipe.map == nullptr) {
         fail("recipe {}: lookup '{}' reads a map and none is named; maps that give {}: {}", recipe.name,
-             recipe.lookup->id, joined(recipe.lookup->needs), maps_for(*recipe.lookup));
+             recipe.lookup->id, joined(words_read(*recipe.lookup)), maps_for(*recipe.lookup));
     }
     if (recipe.map != nullptr && recipe.lookup == nullptr) {
         fail("recipe {}: map '{}' is read by no lookup; lookups that read it: {}", recipe.name, recipe.map->id,

@@ -42,6 +42,27 @@ std::string lookups_that_tell(std::string_view side) {
     return list.empty() ? "none" : list;
 }
 
+namespace {
+
+std::vector<std::string_view> with_filterable(bool filterable, const std::vector<std::string_view>& names) {
+    std::vector<std::string_view> words;
+    if (filterable) {
+        words.emplace_back("filterable");
+    }
+    words.insert(words.end(), names.begin(), names.end());
+    return words;
+}
+
+}  // namespace
+
+std::vector<std::string_view> words_read(const Part& lookup) {
+    return with_filterable(lookup.filters, lookup.needs);
+}
+
+std::vector<std::string_view> words_given(const Part& map) {
+    return with_filterable(map.filterable, map.gives);
+}
+
 bool holds(std::span<const std::string_view> names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }

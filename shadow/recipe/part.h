@@ -31,7 +31,7 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //   lookup      float (vec3 where `channels` is 3) gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
 //               float gn_<id>_<side>(the same) for each of `sides`
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
-//               Params), for maps that give "filterable"; the lookup `filtered` calls it as
+//               Params), for maps that are `filterable`; lookups that filter call it as
 //               GN_MAP_VISIBILITY(GnLookup, ddx_ts, ddy_ts)
 
 /// The reach of a kernel: the larger of texels and metres, and besides half of `pixels` sides of the pixel's footprint on the
@@ -57,10 +57,14 @@ class Part {
     /// lookup: what it reads besides where the map gives it in this recipe ("ids"); else another texture is passed, which its
     /// GLSL must not read.
     std::vector<std::string_view> optional;
-    /// map: what it gives: names of textures, and "filterable" where its own GLSL answers for a footprint.
+    bool filters = false;  ///< lookup: asks the map's own GLSL for a footprint, which must be filterable
+    /// map: what it gives: names of textures.
     std::vector<std::string_view> gives;
+    bool filterable = false;  ///< map: its own GLSL answers for a footprint
     /// map: which of them its own GLSL reads, in order. One that a recipe leaves out is replaced as `optional` ones are.
     std::vector<std::string_view> textures;
+    LightKinds stands_in_for{};                ///< placement: lights that get it where none that serves them is named
+    bool from_centre = false;                  ///< placement: sees a spot's cone from the middle of the spot alone
     bool bends = false;                        ///< placement: straight edges are not straight on its maps
     std::vector<std::string_view> view_names;  ///< placement: what its views are called, in order; empty: by number
     bool separates_casters = false;            ///< map: serves casters = midpoint, dual, ids
@@ -102,6 +106,9 @@ class Part {
 /// Whether a lookup can tell this of a sample; the ids of those that can, "hard, pcf", or "none".
 bool tells(const Part& lookup, std::string_view side);
 std::string lookups_that_tell(std::string_view side);
+/// What a lookup reads of a map, and what a map gives, as words: "filterable", and the names of textures.
+std::vector<std::string_view> words_read(const Part& lookup);
+std::vector<std::string_view> words_given(const Part& map);
 /// Whether a list of names holds one.
 bool holds(std::span<const std::string_view> names, std::string_view name);
 

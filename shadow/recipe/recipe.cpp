@@ -214,7 +214,11 @@ const Part& Recipe::placement_for(const GnLight& shape) const {
     if (placement != nullptr && placement->lights.has(shape.kind)) {
         return *placement;
     }
-    return find_part(Stage::placement, shape.kind == GN_LIGHT_POINT ? "cube" : "fit");
+    const std::span<const Part* const> parts = all_parts();
+    const auto found =
+        std::find_if(parts.begin(), parts.end(), [&](const Part* part) { return part->stands_in_for.has(shape.kind); });
+    GN_CHECK(found != parts.end());
+    return **found;
 }
 
 Recipe load_recipe(const std::string& name_and_overrides) {

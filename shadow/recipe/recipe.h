@@ -54,7 +54,7 @@ struct Recipe {
     [[nodiscard]] Recipe of_translucent() const;
     /// The parts that it names, in the flow's order. A placement left to the lights is none of them.
     [[nodiscard]] std::vector<const Part*> parts() const;
-    /// The placement for a light: as named where that serves such lights, else cube for point lights and fit for all others.
+    /// The placement for a light: as named where that serves such lights, else the one that stands in for their kind.
     [[nodiscard]] const Part& placement_for(const GnLight& shape) const;
 };
 

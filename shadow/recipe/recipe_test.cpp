@@ -444,5 +444,22 @@ TEST(Parts, EveryDefaultLiesInItsRange) {
     }
 }
 
+TEST(Recipe, EveryKindOfLightHasOnePlacementThatStandsIn) {
+    for (uint kind = 0; kind < light_kind_names.size(); ++kind) {
+        const auto parts = all_parts();
+        EXPECT_EQ(std::count_if(parts.begin(), parts.end(),
+                                [&](const Part* part) {
+                                    return part->stage == Stage::placement && part->stands_in_for.has(kind);
+                                }),
+                  1)
+            << light_kind_names.at(kind);
+        GnLight shape;
+        shape.kind = kind;
+        EXPECT_TRUE(load_recipe("hard").placement_for(shape).stands_in_for.has(kind));
+        // It serves the kind, unless nothing does.
+        EXPECT_TRUE(kind == GN_LIGHT_ENVIRONMENT || load_recipe("hard").placement_for(shape).lights.has(kind));
+    }
+}
+
 }  // namespace
 }  // namespace gn

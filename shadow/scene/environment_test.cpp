@@ -38,10 +38,8 @@ TEST(EnvironmentFile, AUniformRadianceIsTheSameEverywhere) {
 }
 
 TEST(EnvironmentFile, ASkyHasColoursAboveAndBelow) {
-    const std::string toml =
-        "[environment]\nname = \"dusk\"\nilluminance = 300\nabove = [1, 0.5, 0.25]\nseen = 2\n";
-    const std::string gltf =
-        R"({"environment":{"name":"dusk","illuminance":300,"above":[1,0.5,0.25],"seen":2}})";
+    const std::string toml = "[environment]\nname = \"dusk\"\nilluminance = 300\nabove = [1, 0.5, 0.25]\nseen = 2\n";
+    const std::string gltf = R"({"environment":{"name":"dusk","illuminance":300,"above":[1,0.5,0.25],"seen":2}})";
     for (const Scene& scene : {load_toml_text(toml), load_gltf_extras(gltf)}) {
         ASSERT_TRUE(scene.environment.has_value());
         EXPECT_EQ(scene.environment->name, "dusk");
@@ -66,9 +64,9 @@ TEST(EnvironmentFile, ASceneOfFilesHasItsOwnBeforeTheirs) {
     folder.write("a.gltf", gltf.text());
     const std::string file = "[[file]]\npath = \"a.gltf\"\n";
     EXPECT_EQ(load_scene(folder.write("s.toml", file)).environment->shape.intensity, 7.0F);
-    EXPECT_EQ(load_scene(folder.write("s.toml", file + "[environment]\nilluminance = 9\n"))
-                  .environment->shape.intensity,
-              9.0F);
+    EXPECT_EQ(
+        load_scene(folder.write("s.toml", file + "[environment]\nilluminance = 9\n")).environment->shape.intensity,
+        9.0F);
 }
 
 TEST(EnvironmentFile, MistakesAreNamed) {

@@ -18,10 +18,10 @@ inline constexpr std::array<std::string_view, 9> sky_keys{"name",  "radiance", "
 /// Numbers by key; what is unset was not given.
 struct GivenSky {
     std::string name;
-    std::optional<double> radiance;                            ///< cd/m^2, the same from everywhere
-    std::optional<double> illuminance;                         ///< lux, on a surface that faces up under a white sky
+    std::optional<double> radiance;                             ///< cd/m^2, the same from everywhere
+    std::optional<double> illuminance;                          ///< lux, on a surface that faces up under a white sky
     std::optional<dvec3> color, above, below, zenith, horizon;  ///< linear rgb
-    std::optional<double> seen;                                ///< GnSky::seen
+    std::optional<double> seen;                                 ///< GnSky::seen
 };
 
 /// What is wrong with it, as the end of a sentence ("needs either ..."), or "".

@@ -43,7 +43,7 @@ void main() {
 
 SampleImages add_regions(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     // A filtered fetch takes a mip level whose texels are up to twice as wide as the pixel's footprint.
-    const float pixels = holds(recipe.lookup->needs, "filterable") ? 2.0F : 0.0F;
+    const float pixels = recipe.lookup->filters ? 2.0F : 0.0F;
     return add_sample_pass(input, recipe, views,
                            {"kernel regions", "kernel region a", "kernel region b", "float", "pixels", main_text},
                            std::as_bytes(std::span(&pixels, 1)));

@@ -28,12 +28,12 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
             "light 'accumulate' cannot share {} lights among {} x {} pixels; accumulate.share is at most {}",
             params.lights, params.share, params.share, static_cast<int>(std::sqrt(static_cast<float>(params.lights))));
     }
-    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->id == "single" &&
+    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->from_centre &&
         light.shape.kind == GN_LIGHT_SPOT) {
         return fmt::format(
-            "placement 'single' sees the cone of light '{}' from its centre, and light 'accumulate' looks from other "
+            "placement '{}' sees the cone of light '{}' from its centre, and light 'accumulate' looks from other "
             "points too; use placement=fit or cube",
-            light.name);
+            recipe.placement->id, light.name);
     }
     return {};
 }

@@ -31,7 +31,7 @@ const Part& lookup_filtered() {
         p.stage = Stage::lookup;
         p.title = "One filtered fetch of a prefiltered map";
         p.citation = "DL06";
-        p.needs = {"filterable"};
+        p.filters = true;
         p.params = param_table<GnFilteredParams>({
             GN_CHOICE(GnFilteredParams, footprint,
                       "What is averaged: the pixel's own footprint, or a kernel of a radius in texels or in metres.",

@@ -83,7 +83,8 @@ const Part& map_convolution() {
         p.stage = Stage::map;
         p.title = "Convolution shadow maps";
         p.citation = "AMB+07";
-        p.gives = {"filterable", "waves"};
+        p.filterable = true;
+        p.gives = {"waves"};
         p.textures = {"waves"};
         p.params = rows();
         p.params_type = "GnConvolutionParams";

@@ -98,7 +98,8 @@ const Part& map_esm() {
         p.stage = Stage::map;
         p.title = "Exponential shadow maps";
         p.citation = "AMS+08";
-        p.gives = {"filterable", "exponentials", "ranges"};
+        p.filterable = true;
+        p.gives = {"exponentials", "ranges"};
         p.textures = {"exponentials", "ranges"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnEsmParams>(with_prefilter(

@@ -109,7 +109,8 @@ const Part& map_evsm() {
         p.stage = Stage::map;
         p.title = "Exponential variance shadow maps";
         p.citation = "Lau08";
-        p.gives = {"filterable", "moments"};
+        p.filterable = true;
+        p.gives = {"moments"};
         p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();

@@ -82,7 +82,8 @@ const Part& map_lvsm() {
         p.stage = Stage::map;
         p.title = "Layered variance shadow maps";
         p.citation = "LM08";
-        p.gives = {"filterable", "moments", "splits"};
+        p.filterable = true;
+        p.gives = {"moments", "splits"};
         p.textures = {"moments", "splits"};
         p.features_for = features_for;
         p.params = rows();

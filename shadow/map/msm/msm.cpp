@@ -75,7 +75,8 @@ const Part& map_msm() {
         p.stage = Stage::map;
         p.title = "Moment shadow maps";
         p.citation = "PK15";
-        p.gives = {"filterable", "moments"};
+        p.filterable = true;
+        p.gives = {"moments"};
         p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();

@@ -71,7 +71,8 @@ const Part& map_sat_vsm() {
         p.stage = Stage::map;
         p.title = "Summed-area variance shadow maps";
         p.citation = "Lau07";
-        p.gives = {"filterable", "sums"};
+        p.filterable = true;
+        p.gives = {"sums"};
         p.textures = {"sums"};
         p.params = rows();
         p.params_type = "GnSatVsmParams";

@@ -47,7 +47,8 @@ const Part& map_vsm() {
         p.stage = Stage::map;
         p.title = "Variance shadow maps";
         p.citation = "DL06";
-        p.gives = {"filterable", "moments"};
+        p.filterable = true;
+        p.gives = {"moments"};
         p.textures = {"moments"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnVsmParams>(with_prefilter(

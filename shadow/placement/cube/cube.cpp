@@ -174,6 +174,7 @@ const Part& placement_cube() {
         p.title = "Six faces around the light";
         p.citation = "EASW09";
         p.lights = {.spot = true, .point = true, .rectangle = true};
+        p.stands_in_for = {.point = true};
         p.view_names = {"+x", "-x", "+y", "-y", "+z", "-z"};
         p.params = param_table<GnCubeParams>({
             GN_CHOICE(GnCubeParams, resolution,

@@ -46,6 +46,8 @@ const Part& placement_fit() {
         p.stage = Stage::placement;
         p.title = "One map focused on the potential shadow receivers";
         p.citation = "BAS02b";
+        // It refuses an environment by name.
+        p.stands_in_for = {.directional = true, .spot = true, .rectangle = true, .environment = true};
         p.glsl = "shadow/placement/fit/fit.glsl";
         p.place = place_fit;
         return p;

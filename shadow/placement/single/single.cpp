@@ -75,6 +75,7 @@ const Part& placement_single() {
         p.title = "One map over the light's own frustum or the scene's bounds";
         p.citation = "Wil78";
         p.lights = {.directional = true, .spot = true};
+        p.from_centre = true;
         p.glsl = "shadow/placement/single/single.glsl";
         p.place = place_single;
         p.refuses = refuses_single;
