@@ -27,7 +27,8 @@ TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind
 
 /// Fills the mips of every layer by halving boxes; the device must filter the format.
 void add_mips(FrameGraph& graph, TextureHandle texture);
-/// A copy of the source's first level, in its own format (R32F of a depth) with all mips, filled by add_mips.
+/// A copy of the source's first level, in its own format (R32F of a depth) with all mips, filled by add_mips. Lookups read it
+/// by shadow/receiver/map_mean.glsl, which keeps to the receiver's view where several share a layer.
 TextureHandle add_mipmapped(FrameGraph& graph, TextureHandle source);
 
 /// What a derivation is made of.

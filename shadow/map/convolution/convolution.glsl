@@ -7,6 +7,7 @@
 #define GN_SHADOW_MAP_CONVOLUTION_GLSL
 
 #include "shadow/map/convolution/convolution.h"
+#include "shadow/receiver/map_mean.glsl"
 #include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
@@ -64,8 +65,8 @@ float gn_convolution_visibility(GnLookup at, sampler2DArray waves, vec2 ddx_ts, 
     float receiver = gn_convolution_receiver(projected.depth, params);
     float sum = 0.0;
     for (int group = 0; group < groups; ++group) {
-        vec3 at = vec3(projected.uv_ts, projected.layer * groups + group);
-        sum += gn_convolution_group(textureGrad(waves, at, ddx_ts, ddy_ts), receiver, group, params);
+        vec4 mean = gn_map_mean(waves, projected, projected.layer * groups + group, ddx_ts, ddy_ts);
+        sum += gn_convolution_group(mean, receiver, group, params);
     }
     GN_EXPECT(gn_finite(sum));
     return gn_convolution_step(sum, params.scale);

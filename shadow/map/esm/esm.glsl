@@ -8,6 +8,7 @@
 
 #include "shadow/map/derived.glsl"
 #include "shadow/map/esm/esm.h"
+#include "shadow/receiver/map_mean.glsl"
 #include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
@@ -164,7 +165,7 @@ float gn_esm_greatest(sampler2DArray ranges, GnProjected projected, GnEsmKernel 
 // `ranges` is the pyramid of depths that the fallback compares with; without fallback nothing reads it.
 float gn_esm_visibility(GnLookup at, sampler2DArray exponentials, sampler2DArray ranges, vec2 ddx_ts, vec2 ddy_ts, GnEsmParams params) {
     GnProjected projected = at.projected;
-    float mean = textureGrad(exponentials, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).r;
+    float mean = gn_map_mean(exponentials, projected, projected.layer, ddx_ts, ddy_ts).r;
     float depth = gn_esm_receiver(projected, params.exponent);
     float product = gn_esm_product(mean, depth, params.exponent);
     GN_EXPECT(gn_finite(product) && product >= 0.0);

@@ -75,7 +75,7 @@ GN_FN float gn_evsm_receiver(GnProjected projected, float c) {
 
 float gn_evsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnEvsmParams params) {
     GnProjected projected = at.projected;
-    vec4 m = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
+    vec4 m = gn_map_mean(moments, projected, projected.layer, ddx_ts, ddy_ts);
     vec2 c = gn_evsm_exponents(params);
     float depth = gn_evsm_receiver(projected, max(c.x, c.y));
     return gn_evsm_visible(m, depth, gn_vsm_deviation(projected, params.min_deviation), params);

@@ -89,8 +89,8 @@ float gn_lvsm_layer_visibility(sampler2DArray map, sampler2DArray splits, GnProj
                                vec2 ddy_ts, int i, GnLvsmParams params) {
     vec2 interval = gn_lvsm_interval(i, gn_lvsm_split(splits, projected.layer, i, params),
                                      gn_lvsm_split(splits, projected.layer, i + 1, params), params);
-    float texture_layer = float(projected.layer * gn_lvsm_textures(params.layers) + i / 2);
-    vec4 texel = textureGrad(map, vec3(projected.uv_ts, texture_layer), ddx_ts, ddy_ts);
+    int texture_layer = projected.layer * gn_lvsm_textures(params.layers) + i / 2;
+    vec4 texel = gn_map_mean(map, projected, texture_layer, ddx_ts, ddy_ts);
     return gn_lvsm_bound((i & 1) == 0 ? texel.xy : texel.zw, projected.depth, interval,
                          gn_vsm_deviation(projected, params.min_deviation), params);
 }

@@ -5,6 +5,7 @@
 #define GN_SHADOW_MAP_MSM_GLSL
 
 #include "shadow/map/msm/msm.h"
+#include "shadow/receiver/map_mean.glsl"
 #include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
@@ -119,7 +120,7 @@ float gn_msm_ramp(GnProjected projected, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams p
 
 float gn_msm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams params) {
     GnProjected projected = at.projected;
-    vec4 stored = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts);
+    vec4 stored = gn_map_mean(moments, projected, projected.layer, ddx_ts, ddy_ts);
     float bias = params.ramp * gn_msm_ramp(projected, ddx_ts, ddy_ts, params);
     return gn_msm_visible(stored, projected.depth - bias - params.depth_bias / projected.metres_per_depth, params);
 }

@@ -6,6 +6,7 @@
 #define GN_SHADOW_MAP_VSM_GLSL
 
 #include "shadow/map/vsm/vsm.h"
+#include "shadow/receiver/map_mean.glsl"
 #include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
@@ -58,7 +59,7 @@ GN_FN float gn_vsm_reduce(float bound, float amount, int reduction) {
 
 float gn_vsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
     GnProjected projected = at.projected;
-    vec2 m = textureGrad(moments, vec3(projected.uv_ts, projected.layer), ddx_ts, ddy_ts).xy;
+    vec2 m = gn_map_mean(moments, projected, projected.layer, ddx_ts, ddy_ts).xy;
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
     m = gn_vsm_limit(m, params.max_deviation);
     float bound = gn_vsm_chebyshev(m, projected.depth, deviation * deviation);
