@@ -108,7 +108,8 @@ struct FrameInput {
     const PreparedRecipe* prepared = nullptr;  ///< what the recipe's frames share; null where one is drawn alone
     const Light* parent = nullptr;             ///< the light that `source` is a sample of; null where it is a whole one
     std::vector<std::string_view> sides;       ///< what lookups are asked to tell beside V
-    bool translucent = false;  ///< maps hold the translucent casters instead of the opaque and masked ones
+    bool translucent = false;          ///< maps hold the translucent casters instead of the opaque and masked ones
+    const ViewSamples* few = nullptr;  ///< lookups give V of these alone, some of `samples`; null: of all
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;

@@ -15,6 +15,20 @@ namespace gn {
 
 namespace {
 
+/// The same with other samples.
+FrameInput seen_by(const FrameInput& input, const ViewSamples& samples) {
+    FrameInput other{input.device, input.graph, input.scene, input.handles, samples};
+    other.source = input.source;
+    other.light_id = input.light_id;
+    other.history = input.history;
+    other.late_remarks = input.late_remarks;
+    other.prepared = input.prepared;
+    other.parent = input.parent;
+    other.sides = input.sides;
+    other.translucent = input.translucent;
+    return other;
+}
+
 /// placement -> map -> lookup.
 Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
@@ -22,8 +36,9 @@ Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
     map.part = recipe.map;
     add_derived(input, recipe, views, map);
     check_map_memory(input, recipe, map.texture());
-    return recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(input, recipe, views, map)
-                                                : add_resolve(input, recipe, views, map);
+    const FrameInput looked = input.few != nullptr ? seen_by(input, *input.few) : input;
+    return recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(looked, recipe, views, map)
+                                                : add_resolve(looked, recipe, views, map);
 }
 
 /// The same for opaque casters and, where there are any, for translucent ones: the product.

@@ -136,8 +136,7 @@ TEST(MapMeanRendered, NothingOfTheOtherViewsOfALayerIsRead) {
         inputs.block("readonly buffer", "Gradients", "vec4 gradients[];", std::as_bytes(std::span(asked.gradients)));
         inputs.buffer("writeonly buffer", "Answers", "vec2 answers[];", answers);
         inputs.constant("vec4", "bounds", asked.bounds);
-        const std::string text =
-            "#include \"shadow/receiver/map_mean.glsl\"\n" + inputs.text() + read_text;
+        const std::string text = "#include \"shadow/receiver/map_mean.glsl\"\n" + inputs.text() + read_text;
         graph.add_pass(
             "read", [&](PassBuilder& pass) { inputs.declare(pass); },
             [&](Recorder& r) {

@@ -40,6 +40,13 @@ struct Guard {
     float texels = 0, metres = 0, pixels = 0;
 };
 
+/// Pixels of the view: every `step`-th in both directions, from `first` on.
+struct PixelLattice {
+    ivec2 first{0};
+    int step = 1;
+    bool operator==(const PixelLattice&) const = default;
+};
+
 /// A number beside V that a lookup can tell of every view sample.
 struct Side {
     std::string_view name, unit, sentence;  ///< "blocker-distance", "m", "How far ..."
@@ -84,6 +91,9 @@ class Part {
     // Exactly one of these is set, by stage.
     /// What serves a light in the stages behind: lights without extent, whose V are summed by weight. At least one.
     std::vector<Light> (*split)(const Light&, const Recipe&) = nullptr;
+    /// The pixels whose V light `index` of `count` is for, with weight 0 elsewhere; null: all. Lights of the same pixels follow
+    /// each other.
+    PixelLattice (*pixels)(int index, int count, const Recipe&) = nullptr;
     LightViews (*place)(const FrameInput&, const Recipe&) = nullptr;
     ShadowMap (*add_map)(const FrameInput&, const Recipe&, const LightViews&) = nullptr;
     /// Lookups normally leave this null: the shared resolve pass calls their GLSL function for every sample.

@@ -33,6 +33,11 @@ GN_FN float gn_point_weight(GnLight light, GnLight one, vec3 p_ws) {
     return point2 > 0.0f ? max(facing, 0.0f) * centre2 / (point2 * sqrt(point2)) : 0.0f;
 }
 
+/// The pixel of a square of `side` that takes point `index` of `count`, counted row by row; side * side is at most `count`.
+GN_FN int gn_point_cell(int index, int count, int side) {
+    return (index * side * side) / count;
+}
+
 /// Whether a receiver's pixel takes point `index` of `count`: the pixels of a square of `side` share the points out among
 /// them, in runs that are spread over the light by themselves. Fewer points than pixels are taken by all of them.
 GN_FN bool gn_point_taken(int index, int count, ivec2 pixel, int side) {
@@ -40,7 +45,7 @@ GN_FN bool gn_point_taken(int index, int count, ivec2 pixel, int side) {
         return true;
     }
     int cell = (pixel.y % side) * side + pixel.x % side;
-    return (index * side * side) / count == cell;
+    return gn_point_cell(index, count, side) == cell;
 }
 
 #ifdef __cplusplus

@@ -21,6 +21,15 @@ std::vector<Light> split(const Light& light, const Recipe& recipe) {
     return lights;
 }
 
+PixelLattice pixels(int index, int count, const Recipe& recipe) {
+    const int side = recipe.of<GnAccumulateParams>("accumulate").share;
+    if (side * side > count) {
+        return {};
+    }
+    const int cell = gn_point_cell(index, count, side);
+    return {ivec2(cell % side, cell / side), side};
+}
+
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
     const auto params = recipe.of<GnAccumulateParams>("accumulate");
     if (params.share * params.share > params.lights) {
@@ -52,12 +61,15 @@ const Part& light_accumulate() {
         p.params = param_table<GnAccumulateParams>({
             GN_PARAM(GnAccumulateParams, lights, integer, 1, 1024, "",
                      "Finer steps in penumbrae, cost grows in proportion; memory does not."),
-            GN_PARAM(GnAccumulateParams, share, integer, 1, 8, "pixels",
-                     "Side of the square of pixels that share the points out: steps become noise for a filter of V."),
+            GN_PARAM(
+                GnAccumulateParams, share, integer, 1, 8, "pixels",
+                "Side of the square of pixels that share the points out: fewer lookups, and noise for a filter of V "
+                "instead of steps."),
         });
         p.params_type = "GnAccumulateParams";
         p.glsl = "shadow/light/accumulate/accumulate.glsl";
         p.split = split;
+        p.pixels = pixels;
         p.refuses = refuses;
         return p;
     }();

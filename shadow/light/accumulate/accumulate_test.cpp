@@ -195,14 +195,62 @@ TEST(Accumulate, PointsBelowTheHorizonLightNothing) {
 }
 
 TEST(Accumulate, BytesDoNotGrowWithTheNumberOfLights) {
-    const Scene scene = scene_under(area_lights().front());
-    for (const char* recipe : {"hard,light=accumulate", "volumes,light=accumulate"}) {
-        const GraphStatistics few = render(scene, fmt::format("{},accumulate.lights=2", recipe)).statistics;
-        const GraphStatistics many = render(scene, fmt::format("{},accumulate.lights=32", recipe)).statistics;
+    const std::vector<GnLight> lights = area_lights();
+    for (const auto& [light, recipe] : {std::pair{lights[0], "hard,placement=fit,resolution=64"},
+                                        {lights[0], "hard,placement=cascades,resolution=64"},
+                                        {lights[2], "hard,placement=cube,resolution=64"},
+                                        {lights[2], "vsm,placement=cube,resolution=64"},
+                                        {lights[3], "hard,resolution=64,accumulate.share=2"},
+                                        {lights[0], "volumes"}}) {
+        const Scene scene = scene_under(light);
+        const std::string text = fmt::format("{},light=accumulate,accumulate.lights=", recipe);
+        const GraphStatistics few = render(scene, text + "4").statistics;
+        const GraphStatistics many = render(scene, text + "64").statistics;
         EXPECT_EQ(few.transient_bytes, many.transient_bytes) << recipe;
         EXPECT_EQ(few.resources.size(), many.resources.size()) << recipe;
         EXPECT_LT(few.passes.size(), many.passes.size()) << recipe;
     }
+}
+
+TEST(Accumulate, APixelThatSharesLooksAtItsOwnPointsAlone) {
+    // Sixteen suns among squares of 4 x 4 pixels, which do not divide the picture: one hard shadow a pixel.
+    constexpr uint width = 90;
+    constexpr uint height = 58;
+    const GnLight sun = area_lights().front();
+    const auto draw = [&](const Scene& scene, const char* recipe) {
+        const test::ValidationGuard guard;
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        return render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),
+                            {.width = width, .height = height, .repeat = 0, .only_light = 0, .picture = false});
+    };
+    const char* shared = "hard,resolution=256,light=accumulate,accumulate.lights=16,accumulate.share=4";
+    const FrameResult frame = draw(scene_under(sun), shared);
+    const std::vector<float>& v = frame.visibility.front().values;
+    const LightSamples samples = light_samples(sun, 16, 4);
+    std::size_t judged = 0;
+    std::size_t dark = 0;
+    for (int k = 0; k < 16; ++k) {
+        const GnLight& one = samples.points[static_cast<std::size_t>(k)];
+        const std::vector<float> alone = draw(scene_under(one), "hard,resolution=256").visibility.front().values;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const vec3 p_ws(frame.samples.position_ws[i]);
+            const vec3 n_ws(frame.samples.normal_ws[i]);
+            const bool taken = gn_point_taken(k, 16, ivec2(i % width, i / width), 4);
+            if (taken && frame.samples.position_ws[i].w > 0.5F && gn_counted(sun, p_ws, n_ws) &&
+                gn_counted(one, p_ws, n_ws)) {
+                EXPECT_EQ(v[i], alone[i]) << "point " << k << ", pixel " << i % width << ", " << i / width;
+                ++judged;
+                dark += v[i] == 0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(judged, v.size() / 3);
+    EXPECT_GT(dark, 100U);
+    // And its lookups fill an image of as many pixels.
+    const auto& resources = frame.statistics.resources;
+    EXPECT_TRUE(std::any_of(resources.begin(), resources.end(), [](const auto& resource) {
+        return resource.name == "visibility" && resource.bytes == 23U * 15U * sizeof(float);
+    }));
 }
 
 TEST(Accumulate, ALightWithoutExtentKeepsItsHardShadow) {
