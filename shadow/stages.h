@@ -162,6 +162,21 @@ enum class ViewKind {
 /// The narrowest kind that views made on the CPU belong to.
 ViewKind kind_of(std::span<const GnLightView> views);
 
+/// A texture that a stage lends to the shaders of the stages behind it, by the name that parts know it by.
+struct Offer {
+    std::string name;       ///< "depth", "moments": one of Part::gives, or of what is derived from it
+    TextureHandle texture;  ///< 2D array, one layer a view (or as the part's GLSL reads it)
+    SamplerDesc sampler;    ///< how it is read
+};
+
+/// A table that a placement lends to its own GLSL, which reads element i as gn_<id>_<name>(i).
+struct PlacementTable {
+    std::string name;              ///< "pages"
+    std::string type;              ///< GLSL: of an element, "uint"
+    BufferHandle buffer;           ///< the elements, in scalar layout
+    std::vector<std::byte> bytes;  ///< where `buffer` is invalid: they travel with the commands
+};
+
 /// placement: where the light looks from.
 struct LightViews {
     /// Where `buffer` is valid, their number is the most there can be, and of each only layer, rectangle and resolution
@@ -170,10 +185,12 @@ struct LightViews {
     ViewKind kind = ViewKind::perspective;
     std::uint32_t resolution = 1024;  ///< texels along a side of every layer
     std::uint32_t layers = 1;
-    const Part* part = nullptr;   ///< its GLSL chooses the view of a receiver
-    std::array<vec4, 16> data{};  ///< what the part's GLSL choice function is given (GnPlacementData)
-    BufferHandle buffer;          ///< GnLightView[] where the placement makes its views on the GPU; else invalid
-    BufferHandle data_buffer;     ///< GnPlacementData likewise
+    const Part* part = nullptr;          ///< its GLSL chooses the view of a receiver
+    std::array<vec4, 16> data{};         ///< what the part's GLSL choice function is given (GnPlacementData)
+    BufferHandle buffer;                 ///< GnLightView[] where the placement makes its views on the GPU; else invalid
+    BufferHandle data_buffer;            ///< GnPlacementData likewise
+    std::vector<Offer> offers;           ///< further arguments of that function, in order
+    std::vector<PlacementTable> tables;  ///< what it may ask besides
     /// Layers and rectangles, too, are known to `buffer` alone: whole texels, apart from each other. Of views that do not
     /// exist in this frame the rectangle is empty.
     bool tiles = false;
@@ -183,13 +200,6 @@ struct LightViews {
     bool crosses = false;           ///< kernels may leave a view's rectangle, and go on in the view that serves the tap
     bool layered = false;           ///< one pass draws all views, each a whole layer of its own
     std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything
-};
-
-/// A texture that a stage lends to the shaders of the stages behind it, by the name that parts know it by.
-struct Offer {
-    std::string name;       ///< "depth", "moments": one of Part::gives, or of what is derived from it
-    TextureHandle texture;  ///< 2D array, one layer a view (or as the part's GLSL reads it)
-    SamplerDesc sampler;    ///< how it is read
 };
 
 /// map: what a texel stores.

@@ -47,9 +47,9 @@ void main() {
 /// How a kernel that leaves its view finds the next one.
 std::string crossing_defines(const LightViews& views) {
     return views.crosses ? fmt::format(
-                               "#define GN_CROSSING\n#define GN_CHOICE(receiver) gn_{}_choose(receiver, placement)\n"
+                               "#define GN_CROSSING\n#define GN_CHOICE(receiver) {}\n"
                                "#define GN_LIGHT_VIEW(i) views[i]\n",
-                               identifier(views.part->id))
+                               choose_call(views))
                          : "";
 }
 
@@ -149,7 +149,7 @@ ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const 
     text += include_line(lookup_header) + inputs.text();
     text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
     text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
-    text += sample_functions(placement) + calls(recipe, map) + side_calls(input, recipe, map) + main_text;
+    text += sample_functions(views) + calls(recipe, map) + side_calls(input, recipe, map) + main_text;
     return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text},
             lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
 }

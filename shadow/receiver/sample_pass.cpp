@@ -27,6 +27,26 @@ bool as_uniform(const LightViews& views) {
     return views.views.size() <= most_uniform;
 }
 
+std::string lent_name(std::string_view name) {
+    return "placement_" + identifier(name);
+}
+
+/// What the placement offers, and its tables.
+void add_lent(ShaderInputs& inputs, const LightViews& views) {
+    for (const Offer& offer : views.offers) {
+        inputs.texture("sampler2DArray", lent_name(offer.name), offer.texture, offer.sampler);
+    }
+    for (const PlacementTable& table : views.tables) {
+        const std::string block = "Placement_" + identifier(table.name);
+        const std::string members = fmt::format("{} {}[];", table.type, lent_name(table.name));
+        if (table.buffer.valid()) {
+            inputs.buffer("readonly buffer", block, members, table.buffer);
+        } else {
+            inputs.block("readonly buffer", block, members, table.bytes);
+        }
+    }
+}
+
 }  // namespace
 
 std::string include_line(std::string_view path) {
@@ -78,6 +98,7 @@ ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const 
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
     add_views(inputs, views);
+    add_lent(inputs, views);
     inputs.constant("GnViewConstants", "view", input.samples.constants);
     inputs.constant("GnLight", "light", input.light().shape);
     inputs.constant("GnLight", "whole", input.whole_light().shape);
@@ -85,8 +106,21 @@ ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const 
     return inputs;
 }
 
-std::string sample_functions(const Part& placement) {
-    return fmt::format("#define GN_CHOOSE gn_{}_choose\n{}", identifier(placement.id), read_text);
+std::string choose_call(const LightViews& views) {
+    std::string call = fmt::format("gn_{}_choose(receiver, placement", identifier(views.part->id));
+    for (const Offer& offer : views.offers) {
+        call += ", " + lent_name(offer.name);
+    }
+    return call + ")";
+}
+
+std::string sample_functions(const LightViews& views) {
+    std::string text = fmt::format("#define GN_CHOOSE(receiver, placement) {}\n", choose_call(views));
+    for (const PlacementTable& table : views.tables) {
+        text += fmt::format("{} gn_{}_{}(int i) {{ return {}[i]; }}\n", table.type, identifier(views.part->id),
+                            identifier(table.name), lent_name(table.name));
+    }
+    return text + read_text;
 }
 
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples) {

@@ -24,13 +24,15 @@ void add_views(ShaderInputs& inputs, const LightViews& views);
 /// The two alone, for shaders that declare them as storage buffers by themselves.
 ShaderInputs view_inputs(const LightViews& views);
 
-/// The G-buffer's positions and normals, the blocks `Views` and `Placement`, and the constants u.view, u.light and u.bias.
+/// The G-buffer's positions and normals, the blocks `Views` and `Placement`, the placement's offers and tables, and the constants u.view, u.light and u.bias.
 /// Their types stand in shadow/view/view.glsl.
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
-/// GLSL, after the inputs' text: GN_CHOOSE(receiver, placement), and `bool read_sample(ivec2 pixel, out GnReceiver)`, which
-/// is false where no sample counts.
-std::string sample_functions(const Part& placement);
+/// GLSL: the call of the placement's function, of `receiver` and `placement`.
+std::string choose_call(const LightViews& views);
+/// GLSL, after the inputs' text: GN_CHOOSE(receiver, placement), what the placement's tables hold, and
+/// `bool read_sample(ivec2 pixel, out GnReceiver)`, which is false where no sample counts.
+std::string sample_functions(const LightViews& views);
 
 /// Adds gbuffer_position and gbuffer_normal to what a shader reads, texel by texel.
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples);

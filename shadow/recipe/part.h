@@ -27,7 +27,8 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //
 //   light       float gn_<id>_weight(GnLight light, GnLight one, vec3 p_ws, ivec2 pixel, int index, int count, Params):
 //               what V of light `index` of `count`, `one`, weighs at a receiver; at least 0
-//   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData)
+//   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData, sampler2DArray for each of LightViews::offers); it declares
+//               `TYPE gn_<id>_<name>(int i);` of each of LightViews::tables, which the pass defines
 //   lookup      float (vec3 where `channels` is 3) gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
 //               float gn_<id>_<side>(the same) for each of `sides`
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,

@@ -160,7 +160,7 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
     const Hasher key = hashed(inputs).text(defines).text(views.part->id);
     const auto shader = compute_once(input.prepared, "forward-samples.comp", key, [&] {
         return defines + include_line("shadow/view/view.glsl") + include_line(views.part->glsl) +
-               include_line("shadow/direct/forward/forward.glsl") + inputs.text() + sample_functions(*views.part) +
+               include_line("shadow/direct/forward/forward.glsl") + inputs.text() + sample_functions(views) +
                samples_text;
     });
     input.graph.add_pass(
