@@ -41,6 +41,17 @@ void hash(Hasher& hasher, const VkStencilOpState& ops) {
     hasher.value(ops.compareMask).value(ops.writeMask);
 }
 
+/// Texts whose maker left the work to whoever binds them.
+std::uint64_t open_texts(const ComputeDesc& desc) {
+    return desc.shader.fingerprint ? 0 : 1;
+}
+std::uint64_t open_texts(const RasterDesc& desc) {
+    const auto open = [](const std::optional<ShaderSource>& shader) {
+        return shader && !shader->fingerprint ? 1U : 0U;
+    };
+    return (desc.vertex.fingerprint ? 0U : 1U) + open(desc.geometry) + open(desc.fragment);
+}
+
 Fingerprint fingerprint(const RasterDesc& desc, const AttachmentFormats& formats) {
     Hasher hasher;
     hash(hasher, desc.vertex);
@@ -188,6 +199,7 @@ Pipeline PipelineCache::lay_out(std::span<const CompiledShader* const> stages, V
 }
 
 const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
+    unsealed_ += open_texts(desc);
     Hasher hasher;
     hash(hasher, desc.shader);
     hash(hasher, desc.constants);
@@ -207,6 +219,7 @@ const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
 }
 
 const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
+    unsealed_ += open_texts(desc);
     const Fingerprint key = fingerprint(desc, formats);
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return found->second;

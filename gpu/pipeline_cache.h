@@ -50,6 +50,8 @@ class PipelineCache {
     VkSampler sampler(const SamplerDesc& desc);
     /// How many pipelines were made so far.
     [[nodiscard]] std::size_t size() const { return pipelines_.size(); }
+    /// How many shader texts had to be fingerprinted when they were bound: who composes one once seals it (gpu/pipeline.h).
+    [[nodiscard]] std::uint64_t unsealed() const { return unsealed_; }
     /// Writes what the driver compiled to disk, where pipelines were made since the last time; at the end this is done
     /// anyway.
     void save();
@@ -64,6 +66,7 @@ class PipelineCache {
     Fingerprint disk_key_;  ///< of the driver, which alone can read its own data
     VkPipelineCache vk_ = VK_NULL_HANDLE;
     std::size_t saved_ = 0;  ///< pipelines that the disk knows
+    std::uint64_t unsealed_ = 0;
     std::map<Fingerprint, Pipeline> pipelines_;
     std::map<Fingerprint, VkSampler> samplers_;
 };

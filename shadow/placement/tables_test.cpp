@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a placement lends to its GLSL beside its sixteen vectors: a placement of the tests shuffles the views of another,
 // and finds them again through a table in a buffer and a texture.
-#include "shadow/frame/history.h"
+#include "gpu/shader_inputs.h"
 #include "tests/rig.h"
 
 #include <numeric>
@@ -36,9 +36,10 @@ BufferHandle write_order(FrameGraph& graph, std::uint32_t count) {
     const BufferHandle order = graph.create({.name = "order", .bytes = count * sizeof(std::uint32_t)});
     ShaderInputs inputs;
     inputs.buffer("writeonly buffer", "Order", "uint order[];", order).constant("uint", "count", count);
-    const std::string text = inputs.text() + "layout(local_size_x = 1) in;\nvoid main() {\n"
-                                             "    for (uint i = 0u; i < u.count; ++i) {\n"
-                                             "        order[i] = (i + 1u) % u.count;\n    }\n}\n";
+    const std::string text = inputs.text() +
+                             "layout(local_size_x = 1) in;\nvoid main() {\n"
+                             "    for (uint i = 0u; i < u.count; ++i) {\n"
+                             "        order[i] = (i + 1u) % u.count;\n    }\n}\n";
     graph.add_pass(
         "order", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, text](Recorder& r) {
@@ -77,8 +78,9 @@ LightViews place_shuffled(const FrameInput& input, const Recipe& recipe) {
 std::vector<float> visibility(const Scene& scene, const Recipe& recipe) {
     const test::ValidationGuard guard;
     SceneGpu gpu = upload_scene(test::device(), scene);
-    const FrameResult frame = render_frame(test::device(), gpu, scene.camera(""), recipe,
-                                           {.width = 128, .height = 96, .repeat = 0, .only_light = 0, .picture = false});
+    const FrameResult frame =
+        render_frame(test::device(), gpu, scene.camera(""), recipe,
+                     {.width = 128, .height = 96, .repeat = 0, .only_light = 0, .picture = false});
     EXPECT_EQ(frame.refused.front(), "");
     return frame.visibility.front().values;
 }
@@ -86,9 +88,9 @@ std::vector<float> visibility(const Scene& scene, const Recipe& recipe) {
 TEST(PlacementTables, AViewIsFoundThroughATableAndATexture) {
     const Scene scene = load_scene("fence");
     // Kernels that cross views ask again, and transitions ask for a second view.
-    for (const char* text :
-         {"pcf,placement=cascades,cascades.count=3,resolution=128",
-          "hard,placement=cascades,cascades.transition=blend,resolution=128", "forward,placement=cascades,resolution=128"}) {
+    for (const char* text : {"pcf,placement=cascades,cascades.count=3,resolution=128",
+                             "hard,placement=cascades,cascades.transition=blend,resolution=128",
+                             "forward,placement=cascades,resolution=128"}) {
         Recipe recipe = load_recipe(text);
         const std::vector<float> expected = visibility(scene, recipe);
         EXPECT_GT(std::count(expected.begin(), expected.end(), 0.0F), 200);
