@@ -91,7 +91,7 @@ TEST(EnvironmentFile, MistakesAreNamed) {
           {R"({"environment":{"radiance":"much"}})", "radiance must be from 0"},
           {R"({"environment":{"radiance":1,"above":[1,2]}})", "above must be 3 numbers"},
           {R"({"environment":{"radiance":1,"above":[1,2,"x"]}})", "above must be 3 numbers"},
-          {R"({"environment":{}})", "needs either radiance"},
+          {R"({"environment":{"seen":1}})", "needs either radiance"},
           {R"({"environment":7})", "is no object"}}) {
         const Scene scene = load_gltf_extras(gnomon);
         EXPECT_TRUE(has_note(scene, expected)) << gnomon;
