@@ -85,21 +85,22 @@ double recording_ms(Bench& bench, const std::string& scene_name, const Row& row)
 
 void recording(Bench& bench) {
     constexpr std::array<int, 4> objects{1, 25, 200, 1000};
-    constexpr std::array<Row, 15> rows{{{"pcf", GN_LIGHT_SPOT, false},
-                                        {"pcf", GN_LIGHT_POINT, false},
-                                        {"cascades", GN_LIGHT_DIRECTIONAL, false},
-                                        {"evsm2", GN_LIGHT_SPOT, false},
-                                        {"vsm", GN_LIGHT_POINT, false},
-                                        {"esm", GN_LIGHT_SPOT, false},
-                                        {"sat-vsm", GN_LIGHT_SPOT, false},
-                                        {"pcf,visibility=bilateral", GN_LIGHT_SPOT, false},
-                                        {"hard,light=accumulate,accumulate.lights=4", GN_LIGHT_SPOT, false},
-                                        {"hard,light=accumulate,accumulate.lights=64", GN_LIGHT_SPOT, false},
-                                        {"pcf", GN_LIGHT_SPOT, true},
-                                        {"pcf", GN_LIGHT_POINT, true},
-                                        {"cascades", GN_LIGHT_DIRECTIONAL, true},
-                                        {"volumes", GN_LIGHT_SPOT, true},
-                                        {"planar", GN_LIGHT_SPOT, true}}};
+    constexpr std::array<Row, 15> rows{
+        {{"pcf", GN_LIGHT_SPOT, false},
+         {"pcf", GN_LIGHT_POINT, false},
+         {"cascades", GN_LIGHT_DIRECTIONAL, false},
+         {"evsm2", GN_LIGHT_SPOT, false},
+         {"vsm", GN_LIGHT_POINT, false},
+         {"esm", GN_LIGHT_SPOT, false},
+         {"sat-vsm", GN_LIGHT_SPOT, false},
+         {"pcf,visibility=bilateral", GN_LIGHT_SPOT, false},
+         {"hard,resolution=64,light=accumulate,accumulate.lights=4", GN_LIGHT_SPOT, false},
+         {"hard,resolution=64,light=accumulate,accumulate.lights=64", GN_LIGHT_SPOT, false},
+         {"pcf", GN_LIGHT_SPOT, true},
+         {"pcf", GN_LIGHT_POINT, true},
+         {"cascades", GN_LIGHT_DIRECTIONAL, true},
+         {"volumes", GN_LIGHT_SPOT, true},
+         {"planar", GN_LIGHT_SPOT, true}}};
     std::printf("\n| Recording thread, ms a frame, `grid` with objects: | 1 | 25 | 200 | 1000 |\n");
     std::printf("| --- | ---: | ---: | ---: | ---: |\n");
     for (const Row& row : rows) {
