@@ -177,6 +177,8 @@ TEST(GpuViewsRendered, InTilesGiveTheSameVisibilityAsThoseOfTheCpu) {
     for (const auto& [scene, recipe] :
          {std::pair{"contact:light=point", "hard,placement=cube,cube.resolution=coverage,resolution=256"},
           {"contact:light=point", "hard,placement=paraboloid,resolution=256"},
+          {"contact:light=point", "vsm,placement=paraboloid,resolution=256,bias.receiver_plane=true"},
+          {"contact:light=point", "hard,placement=paraboloid,resolution=256,casters=ids"},
           {"contact:light=point", "hard,placement=cube,cube.resolution=coverage,resolution=256,casters=dual"},
           {"contact:light=point", "vsm,placement=cube,cube.resolution=coverage,resolution=256"},
           {"contact:light=point", "convolution,placement=cube,cube.resolution=coverage,resolution=256"},
