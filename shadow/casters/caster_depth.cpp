@@ -11,6 +11,7 @@
 #include "shadow/casters/peel.h"
 #include "shadow/casters/tiles.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -60,7 +61,7 @@ void main() {
     RasterDesc desc = tiles ? tile_quads(fragment) : fullscreen(fragment);
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_ALWAYS;
-    return desc;
+    return sealed(std::move(desc));
 }
 
 /// The surface between both layers, view by view.
@@ -69,6 +70,9 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
     const TextureHandle map = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
     const BufferHandle quads = views.tiles ? add_tile_draw(input, views, tile_quad_vertices) : BufferHandle{};
     const ShaderInputs inputs = view_inputs(views);
+    const bool limited = recipe.casters == Casters::dual;
+    const auto shader = made_once(input.prepared, "map between", (limited ? 1U : 0U) + (views.tiles ? 2U : 0U),
+                                  [&] { return between_pipeline(limited, views.tiles); });
     for (const ViewPass& view : view_passes(views)) {
         input.graph.add_pass(
             "map between",
@@ -81,11 +85,11 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
                 pass.sample(second);
                 inputs.declare(pass);
             },
-            [=, bias = applied_bias(input, recipe), limited = recipe.casters == Casters::dual](Recorder& r) {
+            [=, bias = applied_bias(input, recipe)](Recorder& r) {
                 if (!views.tiles) {
                     set_viewport(r, views.views[view.index]);
                 }
-                r.bind(between_pipeline(limited, views.tiles));
+                r.bind(*shader);
                 inputs.set(r);
                 r.set("nearest_depth", nearest);
                 r.set("second_depth", second);

@@ -5,6 +5,8 @@
 #include "shadow/frame/history.h"
 #include "shadow/receiver/sample_pass.h"
 
+#include <array>
+
 namespace gn {
 namespace {
 
@@ -39,7 +41,7 @@ RasterDesc overwrite(const std::string& name, bool color, const std::string& dec
     RasterDesc desc = fullscreen({ShaderKind::fragment, name, text});
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_ALWAYS;
-    return desc;
+    return sealed(std::move(desc));
 }
 
 RasterDesc clear_pipeline(bool color) {
@@ -55,6 +57,16 @@ RasterDesc unwrap_pipeline(bool color) {
     return overwrite("unwrap kept", color, declarations,
                      std::string(color ? "    out_color = texelFetch(kept_color, " + texel + ";\n" : "") +
                          "    gl_FragDepth = texelFetch(kept_depth, " + texel + ".r;\n");
+}
+
+/// Both, without a colour and with one, composed once.
+const RasterDesc& clear_shader(bool color) {
+    static const std::array<RasterDesc, 2> shaders{clear_pipeline(false), clear_pipeline(true)};
+    return shaders[color ? 1 : 0];
+}
+const RasterDesc& unwrap_shader(bool color) {
+    static const std::array<RasterDesc, 2> shaders{unwrap_pipeline(false), unwrap_pipeline(true)};
+    return shaders[color ? 1 : 0];
 }
 
 /// Draws rectangles of one kept layer anew. The pass is there in every frame, so that all frames have one plan.
@@ -84,7 +96,7 @@ void add_draws(const FrameInput& input, const Recipe& recipe, const LightViews& 
             for (tile.view = 0; tile.view < draws.size(); ++tile.view) {
                 const ivec4 rect = draws[tile.view].rect;
                 r.scissor(rect.x, rect.y, static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
-                r.bind(clear_pipeline(tile.job->pass.color.valid()));
+                r.bind(clear_shader(tile.job->pass.color.valid()));
                 r.push_value(tile.job->pass.clear_color.color);
                 r.draw(3);
                 tile.record(r);
@@ -112,7 +124,7 @@ void add_unwrap(const FrameInput& input, const LightViews& views, const CasterPa
             builder.sample(textures.depth);
         },
         [push, textures](Recorder& r) {
-            r.bind(unwrap_pipeline(textures.color.valid()));
+            r.bind(unwrap_shader(textures.color.valid()));
             r.set("kept_depth", textures.depth);
             if (textures.color.valid()) {
                 r.set("kept_color", textures.color);

@@ -33,11 +33,12 @@ void add_copy(const FrameInput& input, TextureHandle from, std::uint32_t layer, 
             builder.color(to, Load::discard, {}, one_layer(to_layer));
         },
         [=](Recorder& r) {
-            r.bind(fullscreen({ShaderKind::fragment, "peel: gather", R"(
+            static const RasterDesc shader = sealed(fullscreen({ShaderKind::fragment, "peel: gather", R"(
 layout(binding = 0) uniform sampler2DArray from;
 layout(location = 0) out vec4 depth;
 void main() { depth = vec4(texelFetch(from, ivec3(gl_FragCoord.xy, 0), 0).r); }
 )"}));
+            r.bind(shader);
             r.set("from", from, nearest(), one_layer(layer));
             r.draw(3);
         });

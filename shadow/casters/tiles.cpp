@@ -2,6 +2,7 @@
 #include "shadow/casters/tiles.h"
 
 #include "gpu/shader_inputs.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -14,15 +15,16 @@ void add_commands(const FrameInput& input, const LightViews& views, ShaderInputs
     }
     inputs.constant("uint", "most", static_cast<std::uint32_t>(views.views.size()));
     inputs.constant("uint", "commands", commands);
-    const std::string text =
-        inputs.text() + "layout(local_size_x = 64) in;\nvoid main() {\n" +
-        "    uint i = gl_GlobalInvocationID.x;\n    if (i >= u.commands) {\n        return;\n    }\n" +
-        (views.count.valid() ? "    uint instances = min(count, u.most);\n" : "    uint instances = u.most;\n") + body +
-        "}\n";
+    const auto shader = compute_once(input.prepared, "tile draws", hashed(inputs), [&] {
+        return inputs.text() + "layout(local_size_x = 64) in;\nvoid main() {\n" +
+               "    uint i = gl_GlobalInvocationID.x;\n    if (i >= u.commands) {\n        return;\n    }\n" +
+               (views.count.valid() ? "    uint instances = min(count, u.most);\n" : "    uint instances = u.most;\n") +
+               body + "}\n";
+    });
     input.graph.add_pass(
         "tile draws", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, commands, shader = ComputeDesc{{ShaderKind::compute, "tile draws", text}, {}}](Recorder& r) {
-            r.bind(shader);
+        [inputs, commands, shader](Recorder& r) {
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch((commands + 63) / 64, 1);
         });

@@ -10,6 +10,7 @@
 
 #include "shadow/placement/cascades/cascade_views.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 #include <set>
 
@@ -47,17 +48,19 @@ struct Pass {
     ShaderInputs inputs;
 };
 
-void add_pass(FrameGraph& graph, const GnSdsmConstants& constants, BufferHandle reduction, Pass pass) {
+void add_pass(const FrameInput& input, const GnSdsmConstants& constants, BufferHandle reduction, Pass pass) {
     pass.inputs.block("uniform", "Constants", "GnSdsmConstants u;", std::as_bytes(std::span(&constants, 1)));
     pass.inputs.buffer("buffer", "Reduction", "GnSdsmReduction r;", reduction);
-    const std::string text = fmt::format(
-        "#include \"shadow/placement/cascades/cascades.glsl\"\n#include \"shadow/placement/cascades/sdsm.h\"\n{}"
-        "#include \"shadow/placement/cascades/sdsm_{}.glsl\"\n",
-        pass.inputs.text(), pass.file);
-    graph.add_pass(
+    const auto shader = compute_once(input.prepared, pass.name, hashed(pass.inputs), [&] {
+        return fmt::format(
+            "#include \"shadow/placement/cascades/cascades.glsl\"\n#include \"shadow/placement/cascades/sdsm.h\"\n{}"
+            "#include \"shadow/placement/cascades/sdsm_{}.glsl\"\n",
+            pass.inputs.text(), pass.file);
+    });
+    input.graph.add_pass(
         pass.name, [&](PassBuilder& builder) { pass.inputs.declare(builder); },
-        [pass, shader = ComputeDesc{{ShaderKind::compute, pass.name, text}, {}}](Recorder& r) {
-            r.bind(shader);
+        [pass, shader](Recorder& r) {
+            r.bind(*shader);
             pass.inputs.set(r);
             r.dispatch(pass.groups.x, pass.groups.y);
         });
@@ -111,15 +114,15 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
     graph.add_pass(
         "sdsm clear", [&](PassBuilder& pass) { pass.copy_to(reduction); },
         [reduction](Recorder& r) { r.fill(reduction, 0); });
-    add_pass(graph, constants, reduction, {"sdsm distances", "distances", columns, samples});
-    add_pass(graph, constants, reduction, {"sdsm splits", "splits", uvec2(1), {}});
-    add_pass(graph, constants, reduction, {"sdsm bounds", "bounds", columns, samples});
+    add_pass(input, constants, reduction, {"sdsm distances", "distances", columns, samples});
+    add_pass(input, constants, reduction, {"sdsm splits", "splits", uvec2(1), {}});
+    add_pass(input, constants, reduction, {"sdsm bounds", "bounds", columns, samples});
 
     // The views around them.
     ShaderInputs made;
     made.buffer("writeonly buffer", "Views", "GnLightView views[];", views.buffer);
     made.buffer("writeonly buffer", "Placement", "GnPlacementData placement;", views.data_buffer);
-    add_pass(graph, constants, reduction, {"sdsm views", "views", uvec2(1), made});
+    add_pass(input, constants, reduction, {"sdsm views", "views", uvec2(1), made});
     return views;
 }
 
