@@ -28,6 +28,7 @@ constexpr const char* examples = R"(Examples:
   gnomon render corridor -r pcf,placement=cascades --show texels -o texels.png
   gnomon compare courtyard -r hard -r pcf,resolution=2048,pcf.taps=25 -o report
   gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
+  gnomon bake pcf,placement=cascades -o baked      its shaders, for renderers that link no compiler
   gnomon doctor                                    what this machine's driver can do
 
 SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
@@ -53,6 +54,17 @@ constexpr const char* compare_examples = R"(Examples:
 Results are kept in DIR/results as soon as they are measured: the same command again only measures what is missing.
 A run is ok when it served at least one light that reaches what the view sees; a light that it refused, or that reaches
 nothing, has status and reason of its own. Ctrl-C keeps what is measured.)";
+
+constexpr const char* bake_examples = R"(Examples:
+  gnomon bake pcf -o baked                             then Info::baked = "baked" (shadow/embed/embed.h)
+  gnomon bake hard pcf,placement=cascades -o baked     for a renderer that changes between both
+  gnomon bake my.toml -o baked                         the renderer then asks for "my"
+
+A renderer that links gnomon::embed has no compiler, and needs this folder: compiled shaders, the recipes' files, and
+manifest.txt, which says what is in it. It serves every device, every light that the recipe serves, and every form of
+depth and normals; values that shaders are given (resolution, bias, ...) may differ from what was baked. It belongs to
+the library that wrote it: another version refuses it. Nothing is drawn, but Vulkan must be there, on any device.
+A folder that was baked before is replaced, once the new one is whole.)";
 
 Size parse_size(const std::string& text) {
     Size size{0, 0};
@@ -128,6 +140,7 @@ struct Parser {
     ShowOptions show;
     RenderOptions render;
     CompareOptions compare;
+    BakeOptions bake;
     std::string render_size, compare_size, render_ground, compare_ground;
     CLI::Option* path = nullptr;
     bool verbose = false, quiet = false;
@@ -141,6 +154,7 @@ struct Parser {
         add_list();
         add_render();
         add_compare();
+        add_bake();
         app.add_subcommand("doctor", "What this machine's driver can do, and what that rules out");
         for (CLI::App* command : app.get_subcommands({})) {
             command->fallthrough();
@@ -160,6 +174,13 @@ struct Parser {
         command->add_option("--ground", ground, ground_help);
         command->add_option("--up", file.up, up_help);
         command->add_option("--assets", file.assets, assets_help)->type_name("DIR")->allow_extra_args(false);
+    }
+
+    void add_bake() {
+        CLI::App* command = app.add_subcommand("bake", "Shaders compiled ahead, for renderers without a compiler");
+        command->add_option("RECIPE", bake.recipes, "Recipes with overrides")->required();
+        command->add_option("-o,--output", bake.folder, "Folder to write")->required();
+        command->footer(bake_examples);
     }
 
     void add_render() {
@@ -293,6 +314,9 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     }
     if (name == "show") {
         return parser.show;
+    }
+    if (name == "bake") {
+        return parser.bake;
     }
     if (name == "render") {
         check_up(parser.render.file);

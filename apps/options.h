@@ -79,9 +79,14 @@ struct CompareOptions {
     std::string command;  ///< the command line that asks for the same again
 };
 
+struct BakeOptions {
+    std::vector<std::string> recipes;
+    std::string folder;
+};
+
 struct DoctorOptions {};
 
-using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, DoctorOptions>;
+using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, DoctorOptions>;
 
 /// What the command line asks for; nothing when it was answered already (--help, --version).
 /// Throws InputError with one sentence.
@@ -92,6 +97,7 @@ int run(const ListOptions& options);
 int run(const ShowOptions& options);
 int run(const RenderOptions& options);
 int run(const CompareOptions& options);
+int run(const BakeOptions& options);
 int run(const DoctorOptions& options);
 
 }  // namespace gn

@@ -39,7 +39,7 @@ class VulkanDevice final : public Device {
         create_parts();
     }
 
-    explicit VulkanDevice(const AdoptedDevice& host) {
+    VulkanDevice(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders) : shaders_(std::move(shaders)) {
         candidate_ = examine(host.physical);
         if (!candidate_.missing.empty()) {
             fail("the host's device '{}' lacks {}", candidate_.info.name, candidate_.missing);
@@ -163,8 +163,7 @@ class VulkanDevice final : public Device {
         GN_VK(vkAllocateCommandBuffers(device_, &commands, &commands_));
         const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         GN_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
-        const std::filesystem::path cache = cache_root().empty() ? std::filesystem::path() : cache_root() / "shaders";
-        shaders_ = std::make_unique<ShaderCompiler>(data_root(), cache);
+        shaders_ = shaders_ != nullptr ? shaders_ : compiler_of(data_root());
         memory_ = std::make_unique<MemoryPool>(candidate_.physical, device_, counters().allocations);
         const std::filesystem::path kept = cache_root().empty() ? std::filesystem::path() : cache_root() / "pipelines";
         pipelines_ = std::make_unique<PipelineCache>(*this, kept);
@@ -182,7 +181,7 @@ class VulkanDevice final : public Device {
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
-    std::unique_ptr<ShaderCompiler> shaders_;
+    std::shared_ptr<ShaderCompiler> shaders_;
     std::unique_ptr<MemoryPool> memory_;
     std::unique_ptr<PipelineCache> pipelines_;
 };
@@ -193,7 +192,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
     return std::make_unique<VulkanDevice>(options);
 }
 
-std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host) {
+std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders) {
     for (const auto& [given, what] : {std::pair{host.instance != VK_NULL_HANDLE, "instance"},
                                       {host.physical != VK_NULL_HANDLE, "physical device"},
                                       {host.device != VK_NULL_HANDLE, "device"},
@@ -203,7 +202,7 @@ std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host) {
             fail("the host lends no {}; instance, physical device, device, queue and features are needed", what);
         }
     }
-    return std::make_unique<VulkanDevice>(host);
+    return std::make_unique<VulkanDevice>(host, std::move(shaders));
 }
 
 }  // namespace gn

@@ -79,8 +79,9 @@ struct Counters {
 class Device {
   public:
     static std::unique_ptr<Device> create(const DeviceOptions& options = {});
-    /// Throws Error when the host's device lacks, or was created without, what Gnomon needs; it names all of that.
-    static std::unique_ptr<Device> adopt(const AdoptedDevice& host);
+    /// Throws Error when the host's device lacks, or was created without, what Gnomon needs; it names all of that. Without
+    /// `shaders` it compiles those of the data folder.
+    static std::unique_ptr<Device> adopt(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders = nullptr);
     virtual ~Device() = default;
 
     [[nodiscard]] virtual const DeviceInfo& info() const = 0;

@@ -74,6 +74,16 @@ struct FrameGraph::Impl {
         }
     }
 
+    /// Lets the passes that somebody reads record into what records nothing.
+    void run_through(SilentRecorder& recorder) const {
+        for (const std::uint32_t pass : living_passes(declaration)) {
+            if (executes[pass]) {
+                recorder.begin(declaration.passes[pass]);
+                executes[pass](recorder);
+            }
+        }
+    }
+
     /// After a failure half-way nobody knows the layout of what would have changed: its contents are given up.
     void forget_layouts() {
         for (std::size_t i = 0; i < imports.textures.size(); ++i) {
@@ -212,12 +222,12 @@ void FrameGraph::hold(std::shared_ptr<const void> object) {
 
 void FrameGraph::compile() {
     PipelineWarmer warmer(impl_->device, impl_->declaration);
-    for (const std::uint32_t pass : living_passes(impl_->declaration)) {
-        if (impl_->executes[pass]) {
-            warmer.begin(impl_->declaration.passes[pass]);
-            impl_->executes[pass](warmer);
-        }
-    }
+    impl_->run_through(warmer);
+}
+
+void FrameGraph::find_shaders(const std::function<void(const ShaderSource&)>& found) {
+    ShaderFinder finder(impl_->declaration, found);
+    impl_->run_through(finder);
 }
 
 void FrameGraph::execute(bool timed) {

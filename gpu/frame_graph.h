@@ -209,6 +209,8 @@ class FrameGraph {
     /// Makes every pipeline and sampler that the passes will bind, and records nothing: what a host does before its first
     /// frame, so that none waits for a compiler. Throws Error.
     void compile();
+    /// Tells every shader that the passes will bind, and makes nothing of it.
+    void find_shaders(const std::function<void(const ShaderSource&)>& found);
     /// Culls, orders by declaration, places memory, records, submits and waits. May be called again: the same graph
     /// is then run once more. Throws Error on out-of-memory or a lost device.
     void execute(bool timed = true);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/glsl.h"
 
+#include <utility>
+
 namespace gn {
 namespace {
 
@@ -9,8 +11,8 @@ constinit MakeGlslCompiler registered = nullptr;
 
 }  // namespace
 
-void register_glsl_compiler(MakeGlslCompiler make) {
-    registered = make;
+MakeGlslCompiler register_glsl_compiler(MakeGlslCompiler make) {
+    return std::exchange(registered, make);
 }
 
 bool has_glsl_compiler() {

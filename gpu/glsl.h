@@ -20,8 +20,8 @@ class GlslCompiler {
 };
 
 using MakeGlslCompiler = std::unique_ptr<GlslCompiler> (*)();
-/// What make_glsl_compiler calls from now on; called before main by a compiler that is linked.
-void register_glsl_compiler(MakeGlslCompiler make);
+/// What make_glsl_compiler calls from now on; gives what it called before. Called before main by a compiler that is linked.
+MakeGlslCompiler register_glsl_compiler(MakeGlslCompiler make);
 /// Whether the program has a compiler.
 bool has_glsl_compiler();
 /// Null where none was registered.

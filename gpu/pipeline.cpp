@@ -198,15 +198,7 @@ Pipeline PipelineCache::lay_out(std::span<const CompiledShader* const> stages, V
     return pipeline;
 }
 
-const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
-    unsealed_ += open_texts(desc);
-    Hasher hasher;
-    hash(hasher, desc.shader);
-    hash(hasher, desc.constants);
-    const Fingerprint key = hasher.finish();
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
-        return found->second;
-    }
+Pipeline PipelineCache::make(const ComputeDesc& desc) {
     const CompiledShader* shader = &device_.shaders().compile(desc.shader);
     Pipeline pipeline = lay_out(std::span(&shader, 1), VK_PIPELINE_BIND_POINT_COMPUTE);
     const Specialization specialization(desc.constants);
@@ -215,16 +207,10 @@ const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
     GN_VK(vkCreateComputePipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
-    return pipelines_.emplace(key, std::move(pipeline)).first->second;
+    return pipeline;
 }
 
-const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
-    unsealed_ += open_texts(desc);
-    const Fingerprint key = fingerprint(desc, formats);
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
-        return found->second;
-    }
-
+Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& formats) {
     // Compile the stages that are there.
     std::vector<const CompiledShader*> shaders{&device_.shaders().compile(desc.vertex)};
     if (desc.geometry) {
@@ -258,7 +244,36 @@ const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentForma
                                             .layout = pipeline.layout};
     GN_VK(vkCreateGraphicsPipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
-    return pipelines_.emplace(key, std::move(pipeline)).first->second;
+    return pipeline;
+}
+
+const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
+    unsealed_ += open_texts(desc);
+    Hasher hasher;
+    hash(hasher, desc.shader);
+    hash(hasher, desc.constants);
+    const Fingerprint key = hasher.finish();
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+    Pipeline& made = pipelines_.emplace(key, make(desc)).first->second;
+    if (device_.shaders().has_sources()) {
+        makings_.emplace(key, Making{.compute = sealed(desc)});
+    }
+    return made;
+}
+
+const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
+    unsealed_ += open_texts(desc);
+    const Fingerprint key = fingerprint(desc, formats);
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        return found->second;
+    }
+    Pipeline& made = pipelines_.emplace(key, make(desc, formats)).first->second;
+    if (device_.shaders().has_sources()) {
+        makings_.emplace(key, Making{.raster = sealed(desc), .formats = formats});
+    }
+    return made;
 }
 
 ShaderSource fullscreen_vertex_shader() {

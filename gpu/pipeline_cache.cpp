@@ -55,6 +55,35 @@ PipelineCache::~PipelineCache() {
     }
 }
 
+std::shared_ptr<const void> PipelineCache::remake(const std::set<Fingerprint>& shaders) {
+    const auto reaches = [&](const std::optional<ShaderSource>& shader) {
+        return shader && shaders.contains(shader->fingerprint.value());
+    };
+    // Pipelines destroy themselves with their last holder, so that a failure half-way leaves nothing.
+    struct Held {
+        PipelineCache& cache;
+        std::map<Fingerprint, Pipeline> pipelines;
+        ~Held() {
+            for (auto& [key, pipeline] : pipelines) {
+                cache.destroy(pipeline);
+            }
+        }
+    };
+    const auto held = std::make_shared<Held>(Held{*this, {}});
+    for (const auto& [key, making] : makings_) {
+        if (making.compute && reaches(making.compute->shader)) {
+            held->pipelines.emplace(key, make(*making.compute));
+        } else if (making.raster && (reaches(making.raster->vertex) || reaches(making.raster->geometry) ||
+                                     reaches(making.raster->fragment))) {
+            held->pipelines.emplace(key, make(*making.raster, making.formats));
+        }
+    }
+    for (auto& [key, pipeline] : held->pipelines) {
+        std::swap(pipelines_.at(key), pipeline);
+    }
+    return held;
+}
+
 VkSampler PipelineCache::sampler(const SamplerDesc& desc) {
     const VkSamplerAddressMode v = desc.address_v == VK_SAMPLER_ADDRESS_MODE_MAX_ENUM ? desc.address : desc.address_v;
     const Fingerprint key = Hasher()

@@ -6,6 +6,10 @@
 #include "gpu/hash.h"
 #include "gpu/shader_cache.h"
 
+#include <memory>
+#include <optional>
+#include <set>
+
 namespace gn {
 
 /// What a raster pipeline must know about the pass it is used in.
@@ -48,6 +52,10 @@ class PipelineCache {
     const Pipeline& get(const ComputeDesc& desc);
     const Pipeline& get(const RasterDesc& desc, const AttachmentFormats& formats);
     VkSampler sampler(const SamplerDesc& desc);
+    /// Makes the pipelines of these shaders anew, from what the device's shaders are now, and holds those of before as long as
+    /// the result lives: frames in flight may still use them. Throws Error where one cannot be made; then all stay as they
+    /// were. Only where shaders have sources.
+    std::shared_ptr<const void> remake(const std::set<Fingerprint>& shaders);
     /// How many pipelines were made so far.
     [[nodiscard]] std::size_t size() const { return pipelines_.size(); }
     /// How many shader texts had to be fingerprinted when they were bound: who composes one once seals it (gpu/pipeline.h).
@@ -57,7 +65,15 @@ class PipelineCache {
     void save();
 
   private:
+    /// What a pipeline was made of, for making it again.
+    struct Making {
+        std::optional<ComputeDesc> compute;
+        std::optional<RasterDesc> raster;
+        AttachmentFormats formats;
+    };
     void load();
+    Pipeline make(const ComputeDesc& desc);
+    Pipeline make(const RasterDesc& desc, const AttachmentFormats& formats);
     Pipeline lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point);
     void destroy(Pipeline& pipeline) const;
 
@@ -68,6 +84,7 @@ class PipelineCache {
     std::size_t saved_ = 0;  ///< pipelines that the disk knows
     std::uint64_t unsealed_ = 0;
     std::map<Fingerprint, Pipeline> pipelines_;
+    std::map<Fingerprint, Making> makings_;  ///< of all of them where shaders have sources, else empty
     std::map<Fingerprint, VkSampler> samplers_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A recorder that makes what passes bind and records nothing.
+// Recorders that look at what passes bind and record nothing.
 #pragma once
 
 #include "gpu/graph_plan.h"
@@ -7,23 +7,19 @@
 
 namespace gn {
 
-class PipelineWarmer final : public Recorder {
+class SilentRecorder : public Recorder {
   public:
-    PipelineWarmer(Device& device, const GraphDeclaration& declaration) : device_(device), declaration_(declaration) {}
+    explicit SilentRecorder(const GraphDeclaration& declaration) : declaration_(declaration) {}
 
     /// Starts a pass, whose attachments its pipelines must know.
-    void begin(const DeclaredPass& pass) { formats_ = attachment_formats(declaration_, pass); }
+    virtual void begin(const DeclaredPass&) {}
 
-    void bind(const ComputeDesc& desc) override { device_.pipelines().get(desc); }
-    void bind(const RasterDesc& desc) override { device_.pipelines().get(desc, formats_); }
-    void set(std::string_view, TextureHandle, const SamplerDesc& sampler, Range) override {
-        device_.pipelines().sampler(sampler);
-    }
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const override {
         return declaration_.textures.at(texture.index).desc;
     }
 
     // Commands leave no trace.
+    void set(std::string_view, TextureHandle, const SamplerDesc&, Range) override {}
     void set_storage(std::string_view, TextureHandle, Range) override {}
     void set(std::string_view, BufferHandle) override {}
     void set_bytes(std::string_view, std::span<const std::byte>) override {}
@@ -47,10 +43,47 @@ class PipelineWarmer final : public Recorder {
     void fill(BufferHandle, std::uint32_t) override {}
     [[nodiscard]] VkCommandBuffer vk() const override { return VK_NULL_HANDLE; }
 
+  protected:
+    const GraphDeclaration& declaration_;
+};
+
+/// Makes what is bound.
+class PipelineWarmer final : public SilentRecorder {
+  public:
+    PipelineWarmer(Device& device, const GraphDeclaration& declaration)
+        : SilentRecorder(declaration), device_(device) {}
+
+    void begin(const DeclaredPass& pass) override { formats_ = attachment_formats(declaration_, pass); }
+    void bind(const ComputeDesc& desc) override { device_.pipelines().get(desc); }
+    void bind(const RasterDesc& desc) override { device_.pipelines().get(desc, formats_); }
+    using SilentRecorder::set;
+    void set(std::string_view, TextureHandle, const SamplerDesc& sampler, Range) override {
+        device_.pipelines().sampler(sampler);
+    }
+
   private:
     Device& device_;
-    const GraphDeclaration& declaration_;
     AttachmentFormats formats_;
+};
+
+/// Tells which shaders are bound.
+class ShaderFinder final : public SilentRecorder {
+  public:
+    ShaderFinder(const GraphDeclaration& declaration, const std::function<void(const ShaderSource&)>& found)
+        : SilentRecorder(declaration), found_(found) {}
+
+    void bind(const ComputeDesc& desc) override { found_(desc.shader); }
+    void bind(const RasterDesc& desc) override {
+        found_(desc.vertex);
+        for (const std::optional<ShaderSource>* stage : {&desc.geometry, &desc.fragment}) {
+            if (*stage) {
+                found_(**stage);
+            }
+        }
+    }
+
+  private:
+    const std::function<void(const ShaderSource&)>& found_;
 };
 
 }  // namespace gn

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shaders: a short prologue of includes composed at run time, compiled by libshaderc, cached on disk by the hash of the
-// whole preprocessed source.
+// Shaders: a short prologue of includes composed at run time, compiled (gpu/glsl.h), cached on disk by the hash of the
+// whole preprocessed source; or found compiled in a folder that was baked (gpu/baked_shaders.h).
 #pragma once
 
 #include "base/error.h"
@@ -54,13 +54,36 @@ struct CompiledShader {
     std::uint32_t push_constant_bytes = 0;
 };
 
+/// A shader that a baked folder does not hold.
+struct MissingShader : Error {
+    using Error::Error;
+};
+
+class BakedShaders;
+class ShaderCompiler;
+
+/// Of a data folder's sources, with the disk cache where programs keep theirs (base/paths.h).
+std::shared_ptr<ShaderCompiler> compiler_of(const std::filesystem::path& data);
+
 class ShaderCompiler {
   public:
     /// An empty cache folder turns the disk cache off.
     ShaderCompiler(std::filesystem::path include_root, std::filesystem::path cache_folder);
+    /// Compiles nothing and reads no source: what was baked is all there is.
+    explicit ShaderCompiler(std::shared_ptr<const BakedShaders> baked);
     ~ShaderCompiler();
-    /// Throws Error with the include's own file and line. The result stays valid as long as the compiler.
+    /// Throws Error with the include's own file and line, or MissingShader. The result stays valid as long as the compiler,
+    /// and becomes another one where reload says so.
     const CompiledShader& compile(const ShaderSource& source);
+
+    /// Whether shaders are made of sources, so that reload may find some changed.
+    [[nodiscard]] bool has_sources() const;
+    /// Reads include files again that were written since they were read last, and compiles again what reaches them. Gives the
+    /// fingerprints of the sources whose code became another one. Throws Error with the compiler's sentence; then nothing
+    /// has changed, and the next call tries again.
+    std::vector<Fingerprint> reload();
+    /// Puts back what the latest reload replaced.
+    void undo_reload();
 
   private:
     struct Impl;

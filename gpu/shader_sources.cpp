@@ -35,15 +35,47 @@ bool leads_out(const std::filesystem::path& path) {
 
 }  // namespace
 
+ShaderSources::File ShaderSources::load(const std::string& path) const {
+    File file;
+    if (path.empty() || leads_out(path)) {
+        return file;
+    }
+    const std::filesystem::path whole = root_ / path;
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(whole, code)) {
+        return file;
+    }
+    // What is written between these and the reading has another time, and is read again.
+    file.written = std::filesystem::last_write_time(whole, code);
+    file.bytes = std::filesystem::file_size(whole, code);
+    std::ifstream stream(whole, std::ios::binary);
+    if (stream) {
+        file.text.emplace(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    }
+    return file;
+}
+
 const std::string* ShaderSources::read(const std::string& path) {
-    const auto [entry, fresh] = files_.try_emplace(path);
-    if (fresh && !path.empty() && !leads_out(path)) {
-        std::ifstream file(root_ / path, std::ios::binary);
-        if (file && std::filesystem::is_regular_file(root_ / path)) {
-            entry->second.emplace(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    auto entry = files_.find(path);
+    if (entry == files_.end()) {
+        entry = files_.emplace(path, load(path)).first;
+    }
+    return entry->second.text ? &*entry->second.text : nullptr;
+}
+
+bool ShaderSources::refresh() {
+    bool changed = false;
+    for (auto& [path, file] : files_) {
+        std::error_code code;
+        const std::filesystem::file_time_type written = std::filesystem::last_write_time(root_ / path, code);
+        const bool there = !code && !leads_out(path) && !path.empty();
+        if (there != file.text.has_value() ||
+            (there && (written != file.written || std::filesystem::file_size(root_ / path, code) != file.bytes))) {
+            file = load(path);
+            changed = true;
         }
     }
-    return entry->second ? &*entry->second : nullptr;
+    return changed;
 }
 
 void ShaderSources::fingerprint(Hasher& hasher, const std::string& text) {

@@ -142,6 +142,70 @@ void main() { result.v = inner(); }
     EXPECT_EQ(cached().size(), 2U);
 }
 
+/// A shader that reads `value()` of an include.
+ShaderSource reader(const std::string& name) {
+    return compute_shader(name,
+                          "#include \"value.glsl\"\n"
+                          R"(
+layout(local_size_x = 1) in;
+layout(binding = 0, scalar) buffer Out { float v; } result;
+void main() { result.v = value(); }
+)");
+}
+
+TEST_F(Shaders, ReloadTakesUpWhatWasWritten) {
+    write("value.glsl", "float value() { return 1.0; }\n");
+    auto shaders = compiler();
+    const CompiledShader& other = shaders.compile(compute_shader("doubling", doubling));
+    const CompiledShader& shader = shaders.compile(reader("reader"));
+    const auto first = shader.spirv, untouched = other.spirv;
+    EXPECT_TRUE(shaders.reload().empty());
+    write("value.glsl", "float value() { return 23.0; }\n");
+    EXPECT_EQ(shader.spirv, first) << "only when it is asked for";
+    EXPECT_EQ(shaders.reload(), std::vector{reader("reader").work_out()});
+    EXPECT_NE(shader.spirv, first);
+    EXPECT_EQ(other.spirv, untouched);
+    EXPECT_TRUE(shaders.reload().empty());
+    write("value.glsl", "float value() { return 23.0; } // other words, the same code\n");
+    EXPECT_TRUE(shaders.reload().empty());
+    write("value.glsl", "float value() { return 1.0; }\n");
+    EXPECT_EQ(shaders.reload().size(), 1U);
+    EXPECT_EQ(shader.spirv, first);
+}
+
+TEST_F(Shaders, AReloadThatDoesNotCompileChangesNothing) {
+    write("value.glsl", "float value() { return 1.0; }\n");
+    auto shaders = compiler();
+    const CompiledShader& a = shaders.compile(reader("a"));
+    const auto first = a.spirv;
+    write("value.glsl", "float value() { return 2.0 }\n");
+    for (int i = 0; i < 2; ++i) {
+        const std::string error = error_of([&] { shaders.reload(); });
+        EXPECT_NE(error.find("value.glsl:1:"), std::string::npos) << error;
+        EXPECT_EQ(a.spirv, first);
+    }
+    // What is compiled for the first time belongs to what is there.
+    EXPECT_EQ(shaders.compile(reader("b")).spirv.size(), first.size());
+    write("value.glsl", "float value() { return 2.0; }\n");
+    EXPECT_EQ(shaders.reload().size(), 2U);
+    EXPECT_NE(a.spirv, first);
+    fs::remove(root / "value.glsl");
+    EXPECT_NE(error_of([&] { shaders.reload(); }).find("value.glsl"), std::string::npos);
+}
+
+TEST_F(Shaders, AnUndoneReloadIsTriedAgain) {
+    write("value.glsl", "float value() { return 1.0; }\n");
+    auto shaders = compiler();
+    const CompiledShader& shader = shaders.compile(reader("reader"));
+    const auto first = shader.spirv;
+    write("value.glsl", "float value() { return 23.0; }\n");
+    EXPECT_EQ(shaders.reload().size(), 1U);
+    shaders.undo_reload();
+    EXPECT_EQ(shader.spirv, first);
+    EXPECT_EQ(shaders.reload().size(), 1U);
+    EXPECT_NE(shader.spirv, first);
+}
+
 TEST_F(Shaders, WithoutACacheFolderNothingIsWritten) {
     ShaderCompiler shaders(root, {});
     EXPECT_FALSE(shaders.compile(compute_shader("doubling", doubling)).spirv.empty());

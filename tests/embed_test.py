@@ -6,7 +6,8 @@
 
 offline hands over a scene: which of its pixels are lit is known one by one, but for those on an edge; embed_c, in C, lends
 depth of the same. embed records Gnomon's shadows into frames of its own, under validation, on devices that go without a
-feature; V on the open ground is known likewise. A result that is dropped does not compile.
+feature; V on the open ground is known likewise. A result that is dropped does not compile. embed_baked and embed_c hold no
+compiler and no model loader, and embed_baked draws what embed draws from shaders that were baked.
 """
 
 import os
@@ -77,16 +78,36 @@ def wall_and_floor(folder, environment):
     print(said.strip())
 
 
+def holds_no_compiler(folder):
+    """What links gnomon::embed has no symbol of a compiler or a loader, and needs no library of them; what compiles has."""
+    foreign = re.compile(r"\bshaderc|glslang|spvtools|\bspv[A-Z]|\bspv::|[Aa]ssimp|tinygltf|draco::|meshopt_")
+    for name, slim in (("embed/embed", False), ("embed/embed_baked", True), ("embed_c/embed_c", True)):
+        program = folder / "build" / name
+        symbols = {line for line in run("nm", "-C", program).splitlines() if foreign.search(line)}
+        libraries = [line.split()[0] for line in run("ldd", program).splitlines() if foreign.search(line)]
+        if slim and (symbols or libraries):
+            sys.exit(f"{name} should hold neither compiler nor loader, but needs {libraries} and has {sorted(symbols)[:5]}")
+        if not slim and not (symbols and libraries):
+            sys.exit(f"{name} compiles and links everything, but 'nm' and 'ldd' show nothing of it: they prove nothing")
+    print(f"neither compiler nor loader in embed_baked ({(folder / 'build/embed/embed_baked').stat().st_size >> 10} KiB, with "
+          f"both {(folder / 'build/embed/embed').stat().st_size >> 10} KiB)")
+
+
 class Renderer:
     """Runs of the renderer under validation, in a small picture with few objects."""
 
     def __init__(self, folder, environment):
         self.folder, self.environment = folder, environment
 
+    program = "embed"
+
     def run(self, *more, status=0):
-        return run(self.folder / "build" / "embed" / "embed", "--validate", "--size", f"{SIZE[0]}x{SIZE[1]}", "--objects", 60,
-                   "--frames", 12, "--visibility", "--output", self.folder / "embed.png", *more, status=status,
-                   cwd=self.folder, env=self.environment)
+        return run(self.folder / "build" / "embed" / self.program, "--validate", "--size", f"{SIZE[0]}x{SIZE[1]}",
+                   "--objects", 60, "--frames", 12, "--visibility", "--output", self.folder / "embed.png", *more,
+                   status=status, cwd=self.folder, env=self.environment)
+
+    def pictures(self):
+        return [(self.folder / f"embed{name}.png").read_bytes() for name in ("", "-sun", "-lamp")]
 
     def holds(self, *more):
         """Nothing was said, nothing created in steady frames, passes were timed, V is right; gives what it printed."""
@@ -111,16 +132,41 @@ class Renderer:
             sys.exit(f"embed {' '.join(more)} should name '{word}' in one sentence, and said: {said}")
 
 
+class BakedRenderer(Renderer):
+    """The same without a compiler, and without the folder of sources."""
+
+    program = "embed_baked"
+
+    def __init__(self, folder, environment):
+        super().__init__(folder, {**environment, "GNOMON_DATA": str(folder / "no-such-folder")})
+        self.baked = ("--baked", folder / "build" / "embed" / "baked")
+
+    def checks(self, compiled, everything):
+        """`compiled`: the pictures of embed. `everything`: features to go without."""
+        self.holds(*self.baked)
+        if self.pictures() != compiled:
+            sys.exit("embed_baked draws other pictures than embed")
+        self.holds(*self.baked, *(word for feature in everything for word in ("--without", feature)))
+        self.refuses("gnomon bake")
+        self.refuses("gnomon bake pcf,placement=cascades hard -o", *self.baked, "--recipe", "hard")
+        self.refuses("gnomon bake pcf,placement=cascades pcf,placement=lispsm -o", *self.baked,
+                     "--recipe", "pcf,placement=lispsm", status=1)
+        self.refuses("manifest.txt", "--baked", self.folder)
+        print("the same pictures from baked shaders")
+
+
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     folder = build / "embed"
     build_examples(build, folder)
     refuses_dropped_results(folder / "prefix")
     environment = {key: value for key, value in os.environ.items() if key != "GNOMON_DATA"}
+    holds_no_compiler(folder)
     wall_and_floor(folder, environment)
 
     renderer = Renderer(folder, environment)
     print(renderer.holds().strip())
+    BakedRenderer(folder, environment).checks(renderer.pictures(), OPTIONAL + WIDENING)
     for feature in OPTIONAL:
         renderer.holds("--without", feature)
     renderer.holds(*(word for feature in OPTIONAL + WIDENING for word in ("--without", feature)))

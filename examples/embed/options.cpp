@@ -7,7 +7,8 @@
 namespace {
 
 constexpr const char* usage =
-    "embed [--output FILE.png] [--visibility] [--recipe RECIPE] [--size WxH] [--objects N] [--frames N] [--validate] "
+    "embed [--output FILE.png] [--visibility] [--recipe RECIPE] [--baked FOLDER] [--size WxH] [--objects N] [--frames "
+    "N] [--validate] "
     "[--without FEATURE]...";
 
 std::uint32_t number(const std::string& text, std::uint32_t least, std::uint32_t most) {
@@ -38,6 +39,8 @@ Options read_options(int argc, char** argv) {
             options.visibility = true;
         } else if (word == "--recipe") {
             options.recipe = next();
+        } else if (word == "--baked") {
+            options.baked = next();
         } else if (word == "--size") {
             const std::string size = next();
             const std::size_t cross = size.find('x');

@@ -8,6 +8,7 @@ struct Options {
     std::string output = "embed.png";
     bool visibility = false;  ///< V of both lights as pictures beside the output
     std::string recipe = "pcf,placement=cascades";
+    std::string baked;  ///< a folder of compiled shaders, or "" where they are compiled
     VkExtent2D size{1280, 720};
     std::uint32_t objects = 1000;
     std::uint32_t frames = 24;

@@ -7,7 +7,8 @@
 
 namespace {
 
-gn::embed::Shadows create(const HostDevice& host, const std::string& recipe, VkExtent2D largest) {
+gn::embed::Shadows create(const HostDevice& host, const std::string& recipe, const std::string& baked,
+                          VkExtent2D largest) {
     auto created = gn::embed::Shadows::create(
         {.device = {.instance = host.instance,
                     .physical = host.physical,
@@ -21,7 +22,8 @@ gn::embed::Shadows create(const HostDevice& host, const std::string& recipe, VkE
                     .height = largest.height,
                     .lights = light_count,
                     .frames_in_flight = frames_in_flight},
-         .receivers = {.reversed_depth = true, .normals = gn::embed::Normals::signed_octahedral}});
+         .receivers = {.reversed_depth = true, .normals = gn::embed::Normals::signed_octahedral},
+         .baked = baked});
     if (!created.ok()) {
         throw Refused(created.why());
     }
@@ -54,8 +56,9 @@ GnLight lamp_light() {
 
 }  // namespace
 
-ShadowPass::ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, VkExtent2D largest)
-    : world_(world), shadows_(create(host, recipe, largest)) {
+ShadowPass::ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, const std::string& baked,
+                       VkExtent2D largest)
+    : world_(world), shadows_(create(host, recipe, baked, largest)) {
     for (const Group& group : world.groups) {
         const gn::embed::CasterObject object{group.mesh.first_index, group.mesh.index_count, group.mesh.first_vertex,
                                              group.mesh.vertex_count, true};

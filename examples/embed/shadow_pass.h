@@ -17,8 +17,9 @@ struct Refused : std::runtime_error {
 
 class ShadowPass {
   public:
-    /// Throws Refused.
-    ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, VkExtent2D largest);
+    /// `baked`: a folder of compiled shaders, or "". Throws Refused.
+    ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, const std::string& baked,
+               VkExtent2D largest);
 
     /// Depth and normals are as the scene's pass left them; they and V are left in SHADER_READ_ONLY_OPTIMAL. `number` counts
     /// the frames: in every third the lights come in the other order, which must make no difference. Throws

@@ -5,8 +5,6 @@
  *
  * A wall of 2 x 2 metres stands on a floor of 8 x 8; the sun comes from behind it, 45 degrees high. Status 0: all is well. 1: it
  * failed, or validation had something to say. 2: Gnomon refused. */
-#define _POSIX_C_SOURCE 200112L /* setenv */
-
 #include "host.h"
 
 #include "shadow/embed/gnomon.h"
@@ -149,7 +147,8 @@ static GnomonShadows* create_shadows(const Renderer* r) {
                              .height = height,
                              .lights = 1,
                              .frames_in_flight = 1,
-                             .normals = GNOMON_NORMALS_NONE};
+                             .normals = GNOMON_NORMALS_NONE,
+                             .baked = EMBED_BAKED};
     GnomonShadows* shadows = NULL;
     demand(gnomon_create(&info, &shadows));
     return shadows;
@@ -207,7 +206,6 @@ int main(int argc, char** argv) {
         fprintf(stderr, "embed_c: name a picture to write: embed_c shadow.pgm [--validate]\n");
         return 1;
     }
-    setenv("GNOMON_DATA", EMBED_DATA, 0);
     Renderer renderer;
     create(&renderer, argc > 2 && strcmp(argv[2], "--validate") == 0);
     GnomonShadows* shadows = create_shadows(&renderer);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/embed/embed.h"
 
+#include "gpu/baked_shaders.h"
 #include "gpu/frames.h"
+#include "gpu/glsl.h"
+#include "gpu/reload.h"
 #include "shadow/embed/lent_casters.h"
 #include "shadow/embed/lent_images.h"
 #include "shadow/embed/lent_receivers.h"
@@ -29,6 +32,21 @@ void check_parts(const Recipe& recipe) {
     }
 }
 
+/// The recipe as it is asked for.
+std::string text_of(const Recipe& recipe) {
+    return recipe.name + (recipe.overrides.empty() ? "" : ",") + recipe.overrides;
+}
+
+/// Throws Error where a recipe that goes by name has no file in the folder.
+void demand_recipe(const BakedShaders& baked, const std::string& text) {
+    const std::string name = text.substr(0, text.find(','));
+    const std::vector<std::string> known = recipe_names(baked.folder());
+    if (name.find('/') == std::string::npos && !name.ends_with(".toml") &&
+        std::none_of(known.begin(), known.end(), [&](const auto& k) { return identifier(k) == identifier(name); })) {
+        fail("recipe '{}' is not in {}; this makes it: {}", text, baked.folder().string(), baked.command_with(text));
+    }
+}
+
 void memory_barrier(VkCommandBuffer commands) {
     const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -40,17 +58,33 @@ void memory_barrier(VkCommandBuffer commands) {
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
+/// Where the shaders come from. Throws Error where there is neither a baked folder nor a compiler.
+std::shared_ptr<ShaderCompiler> shaders_for(const Info& info, const std::shared_ptr<const BakedShaders>& baked) {
+    if (baked != nullptr) {
+        return std::make_shared<ShaderCompiler>(baked);
+    }
+    if (!has_glsl_compiler()) {
+        fail(
+            "this program links no compiler of shaders; give a baked folder (gnomon bake {} -o FOLDER), or link "
+            "gnomon::gn_shadow",
+            info.recipe);
+    }
+    return info.data.empty() ? nullptr : compiler_of(info.data);
+}
+
 }  // namespace
 
 struct Shadows::State {
-    State(std::unique_ptr<Device> adopted, const Info& asked)
+    State(const Info& asked, std::shared_ptr<const BakedShaders> found, std::unique_ptr<Device> given)
         : info(asked),
-          device(std::move(adopted)),
+          baked(std::move(found)),
+          device(given != nullptr ? std::move(given) : Device::adopt(info.device, shaders_for(info, baked))),
           frames(*device, info.limits.frames_in_flight),
           images(*device, frames),
           casters(*device) {}
 
     Info info;
+    std::shared_ptr<const BakedShaders> baked;  ///< null: shaders have sources
     std::unique_ptr<Device> device;
     std::shared_ptr<const PreparedRecipe> recipe;
     std::shared_ptr<History> history;
@@ -61,7 +95,9 @@ struct Shadows::State {
 
     void forget_history();
     void prepare(const std::string& text);
+    std::vector<std::string> declare(FrameGraph& graph, const Frame& frame);
     std::vector<std::string> record(VkCommandBuffer commands, const Frame& frame);
+    std::size_t reload();
     void check(const Frame& frame) const;
     std::vector<FrameLight> take_lights(const Frame& frame);
 };
@@ -73,7 +109,10 @@ void Shadows::State::forget_history() {
 }
 
 void Shadows::State::prepare(const std::string& text) {
-    Recipe loaded = load_recipe(text);
+    if (baked != nullptr) {
+        demand_recipe(*baked, text);
+    }
+    Recipe loaded = load_recipe(text, baked != nullptr ? baked->folder() : info.data);
     check_parts(loaded);
     frames.retire(recipe);
     recipe = std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
@@ -112,14 +151,13 @@ std::vector<FrameLight> Shadows::State::take_lights(const Frame& frame) {
     return lights;
 }
 
-std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
+std::vector<std::string> Shadows::State::declare(FrameGraph& graph, const Frame& frame) {
     check(frame);
     frames.begin(frame.slot);
     images.begin(frame.receivers.width, frame.receivers.height);
     if (frame.cut) {
         forget_history();
     }
-    FrameGraph graph(*device);
 
     // What the renderer lends.
     graph.group("lent");
@@ -146,12 +184,32 @@ std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const 
         add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target);
         refused.push_back(shadows[i].refused);
     }
+    return refused;
+}
 
+std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
+    FrameGraph graph(*device);
+    std::vector<std::string> refused = declare(graph, frame);
     memory_barrier(commands);
-    graph.record(frames, commands);
+    try {
+        graph.record(frames, commands);
+    } catch (const MissingShader& missing) {
+        fail("recipe '{}': {}; this makes it: {}", text_of(recipe->recipe()), missing.what(),
+             baked->command_with(text_of(recipe->recipe())));
+    }
     images.give_back(commands);
     history->advance();
     return refused;
+}
+
+std::size_t Shadows::State::reload() {
+    Reloaded reloaded = reload_shaders(*device);
+    if (reloaded.shaders > 0) {
+        frames.retire(std::move(reloaded.before));
+        forget_history();
+        casters.forget();
+    }
+    return reloaded.shaders;
 }
 
 Shadows::Shadows(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -160,8 +218,13 @@ Shadows& Shadows::operator=(Shadows&&) noexcept = default;
 Shadows::~Shadows() = default;
 
 Result<Shadows> Shadows::create(const Info& info) noexcept {
+    return create(info, nullptr);
+}
+
+Result<Shadows> Shadows::create(const Info& info, std::unique_ptr<Device> device) noexcept {
     return guarded<Shadows>([&] {
-        auto state = std::make_unique<State>(Device::adopt(info.device), info);
+        auto baked = info.baked.empty() ? nullptr : std::make_shared<const BakedShaders>(info.baked);
+        auto state = std::make_unique<State>(info, std::move(baked), std::move(device));
         state->prepare(info.recipe);
         return Shadows(std::move(state));
     });
@@ -198,6 +261,21 @@ Result<std::vector<std::string>> Shadows::record(VkCommandBuffer commands, const
         state_->casters.forget();
     }
     return recorded;
+}
+
+Result<std::size_t> Shadows::reload() noexcept {
+    return guarded<std::size_t>([&] { return state_->reload(); });
+}
+
+Result<std::vector<std::string>> Shadows::rehearse(const Frame& frame,
+                                                   const std::function<void(const ShaderSource&)>& found) noexcept {
+    return guarded<std::vector<std::string>>([&] {
+        FrameGraph graph(*state_->device);
+        std::vector<std::string> refused = state_->declare(graph, frame);
+        graph.find_shaders(found);
+        state_->history->advance();
+        return refused;
+    });
 }
 
 GraphStatistics Shadows::completed(std::uint32_t slot) const noexcept {

@@ -21,6 +21,8 @@
 #include "shadow/embed/result.h"
 #include "shadow/scene/scene.h"
 
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,6 +57,11 @@ struct Info {
     std::string recipe = "pcf";  ///< a name or a file, with overrides
     Limits limits;
     ReceiverForm receivers;
+    /// A folder that `gnomon bake` wrote for the recipes: compiled shaders and the recipes' files. Then nothing is compiled, and
+    /// no other file is read.
+    std::filesystem::path baked;
+    /// Without `baked`: the folder of recipes/ and of the shader functions; empty: the program's own (base/paths.h).
+    std::filesystem::path data;
 };
 
 /// An image of the renderer's: one mip and one layer of it.
@@ -126,6 +133,8 @@ class Shadows {
     /// Fails with a sentence that names what is missing: of the device, of what was enabled in it, or in the recipe. Parts
     /// that need the triangles on the CPU are refused by name.
     static Result<Shadows> create(const Info& info) noexcept;
+    /// The same on a device of the library's: info.device, baked and data are not looked at.
+    static Result<Shadows> create(const Info& info, std::unique_ptr<Device> device) noexcept;
     Shadows(Shadows&&) noexcept;
     Shadows& operator=(Shadows&&) noexcept;
     /// The device must have finished with every slot.
@@ -143,6 +152,13 @@ class Shadows {
     void forget_images() noexcept;
     /// Another recipe or other values from the next frame on; what was kept over frames begins anew.
     Result<Done> set_recipe(const std::string& recipe) noexcept;
+    /// In development: compiles again the shaders whose .glsl files were written since they were read, with the next frame for
+    /// their first. Gives how many became others. Where one does not compile it gives the compiler's sentence, and all stay as
+    /// they were. Frames in flight are not disturbed.
+    Result<std::size_t> reload() noexcept;
+    /// Tells every shader that a frame like this would bind, and records nothing: what `gnomon bake` compiles.
+    Result<std::vector<std::string>> rehearse(const Frame& frame,
+                                              const std::function<void(const ShaderSource&)>& found) noexcept;
     /// Passes with their times and the bytes of resources, of the slot's last completed use.
     [[nodiscard]] GraphStatistics completed(std::uint32_t slot) const noexcept;
     /// What parts found out when frames had completed, one sentence each: lists that were too short, and the like.

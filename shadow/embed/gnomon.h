@@ -60,6 +60,8 @@ typedef struct GnomonInfo {
     uint32_t frames_in_flight;
     GnomonNormals normals;
     bool reversed_depth;
+    const char* baked; /* a folder that `gnomon bake` wrote, or NULL */
+    const char* data;  /* without it: the folder of recipes and shader functions, or NULL for the program's own */
 } GnomonInfo;
 
 typedef struct GnomonImage {
@@ -136,6 +138,8 @@ const char* gnomon_record(GnomonShadows* shadows, VkCommandBuffer commands, cons
 const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* light);
 const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe);
 void gnomon_forget_images(GnomonShadows* shadows);
+/* In development: compiles shaders again whose files were written since; `changed`, when it is not NULL, becomes their number. */
+const char* gnomon_reload(GnomonShadows* shadows, size_t* changed);
 
 /* Passes of the slot's last completed use; they stay until the next call of this function. Gives their number. */
 uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPass** passes);

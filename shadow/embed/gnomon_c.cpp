@@ -110,6 +110,8 @@ Info info_of(const GnomonInfo& c) {
     info.recipe = &given(c.recipe, "the recipe");
     info.limits = {.width = c.width, .height = c.height, .lights = c.lights, .frames_in_flight = c.frames_in_flight};
     info.receivers = {.reversed_depth = c.reversed_depth, .normals = static_cast<Normals>(c.normals)};
+    info.baked = c.baked != nullptr ? c.baked : "";
+    info.data = c.data != nullptr ? c.data : "";
     return info;
 }
 
@@ -200,6 +202,19 @@ const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe) {
         const Result<Done> done = shadows->shadows.set_recipe(&given(recipe, "the recipe"));
         if (!done.ok()) {
             throw Error(done.why());
+        }
+    });
+}
+
+const char* gnomon_reload(GnomonShadows* shadows, size_t* changed) {
+    return sentence_of([&] {
+        given(shadows, "shadows");
+        const Result<std::size_t> reloaded = shadows->shadows.reload();
+        if (!reloaded.ok()) {
+            throw Error(reloaded.why());
+        }
+        if (changed != nullptr) {
+            *changed = reloaded.value();
         }
     });
 }

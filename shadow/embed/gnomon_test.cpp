@@ -162,6 +162,9 @@ TEST(GnomonC, MistakesAreSentences) {
     info.recipe = nullptr;
     EXPECT_NE(text(gnomon_create(&info, &none)).find("recipe"), std::string::npos);
     info.recipe = "hard";
+    info.baked = "/dev/null";
+    EXPECT_NE(text(gnomon_create(&info, &none)).find("/dev/null: there is no manifest.txt"), std::string::npos);
+    info.baked = nullptr;
     info.extensions = nullptr;
     EXPECT_NE(text(gnomon_create(&info, &none)).find("extensions"), std::string::npos);
     info.size = 8;
@@ -179,6 +182,10 @@ TEST(GnomonC, MistakesAreSentences) {
     EXPECT_NE(text(gnomon_set_recipe(shadows.get(), "volumes")).find("'volumes'"), std::string::npos);
     EXPECT_EQ(text(gnomon_set_recipe(shadows.get(), "hard")), "");
     EXPECT_EQ(text(gnomon_refuses(shadows.get(), in_c.lights.data())), "");
+    std::size_t changed = 1;
+    EXPECT_EQ(text(gnomon_reload(shadows.get(), &changed)), "");
+    EXPECT_EQ(changed, 0U);
+    EXPECT_NE(text(gnomon_reload(nullptr, nullptr)), "");
     in_c.frame.objects = nullptr;
     EXPECT_NE(record(shadows.get(), in_c.frame, nullptr).find("objects"), std::string::npos);
     in_c.frame.light_size = 1;

@@ -94,18 +94,8 @@ bool is_path(std::string_view name) {
     return name.ends_with(".toml") || name.find('/') != std::string_view::npos;
 }
 
-std::filesystem::path recipe_path(const std::string& name) {
-    if (is_path(name)) {
-        return name;
-    }
-    const std::vector<std::string> names = recipe_names();
-    const auto found = std::find_if(names.begin(), names.end(),
-                                    [&](const std::string& known) { return identifier(known) == identifier(name); });
-    if (found == names.end()) {
-        const std::vector<std::string_view> known(names.begin(), names.end());
-        fail("unknown recipe '{}'; {}, or the path of a .toml file", name, suggest(name, known));
-    }
-    return data_root() / "recipes" / (*found + ".toml");
+std::filesystem::path recipes_of(const std::filesystem::path& data) {
+    return (data.empty() ? data_root() : data) / "recipes";
 }
 
 toml::table read_file(const std::filesystem::path& path, const std::string& where) {
@@ -221,7 +211,21 @@ const Part& Recipe::placement_for(const GnLight& shape) const {
     return **found;
 }
 
-Recipe load_recipe(const std::string& name_and_overrides) {
+std::filesystem::path recipe_file(const std::string& name, const std::filesystem::path& data) {
+    if (is_path(name)) {
+        return name;
+    }
+    const std::vector<std::string> names = recipe_names(data);
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& known) { return identifier(known) == identifier(name); });
+    if (found == names.end()) {
+        const std::vector<std::string_view> known(names.begin(), names.end());
+        fail("unknown recipe '{}'; {}, or the path of a .toml file", name, suggest(name, known));
+    }
+    return recipes_of(data) / (*found + ".toml");
+}
+
+Recipe load_recipe(const std::string& name_and_overrides, const std::filesystem::path& data) {
     // Start from every part's defaults.
     Recipe recipe;
     for (const Part* part : all_parts()) {
@@ -230,7 +234,7 @@ Recipe load_recipe(const std::string& name_and_overrides) {
     // Read the file, then lay the overrides over it.
     const std::size_t comma = name_and_overrides.find(',');
     const std::string name(without_blanks(std::string_view(name_and_overrides).substr(0, comma)));
-    const std::filesystem::path path = recipe_path(name);
+    const std::filesystem::path path = recipe_file(name, data);
     recipe.name = path.stem().string();
     const std::string where = is_path(name) ? name : fmt::format("recipe {}", recipe.name);
     read_table(recipe, read_file(path, where), where);
@@ -238,10 +242,10 @@ Recipe load_recipe(const std::string& name_and_overrides) {
     return recipe;
 }
 
-std::vector<std::string> recipe_names() {
+std::vector<std::string> recipe_names(const std::filesystem::path& data) {
     std::vector<std::string> names;
     std::error_code code;
-    for (const auto& entry : std::filesystem::directory_iterator(data_root() / "recipes", code)) {
+    for (const auto& entry : std::filesystem::directory_iterator(recipes_of(data), code)) {
         if (entry.path().extension() == ".toml") {
             names.push_back(entry.path().stem().string());
         }

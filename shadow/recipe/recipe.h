@@ -6,6 +6,7 @@
 #include "shadow/receiver/bias.h"
 #include "shadow/recipe/part.h"
 
+#include <filesystem>
 #include <map>
 
 namespace gn {
@@ -64,10 +65,13 @@ inline constexpr int min_resolution = 16, max_resolution = 16384;
 extern const ParamTable bias_params;  ///< rows of GnBias
 
 /// Reads "pcf,resolution=2048,pcf.taps=25": a name in recipes/ or a path to a .toml, then overrides.
+/// Names are looked up in recipes/ of the folder `data`, or where that is empty of the program's own (base/paths.h).
 /// Throws Error naming the file or "-r", the key, and what would be valid.
-Recipe load_recipe(const std::string& name_and_overrides);
-/// Names of the shipped recipes, sorted.
-std::vector<std::string> recipe_names();
+Recipe load_recipe(const std::string& name_and_overrides, const std::filesystem::path& data = {});
+/// The file that a name or path means, found the same way.
+std::filesystem::path recipe_file(const std::string& name, const std::filesystem::path& data = {});
+/// Names of the recipes in such a folder, sorted.
+std::vector<std::string> recipe_names(const std::filesystem::path& data = {});
 /// Throws Refusal when the recipe cannot serve the light, lacks a device feature, names a placement for none of the scene's
 /// lights, or its stages do not fit.
 void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device);
