@@ -76,7 +76,7 @@ std::vector<std::vector<float>> visibilities(Shadows& shadows, test::LentRendere
 TEST(EmbedBaked, BakedShadersGiveTheSameVisibility) {
     const test::ValidationGuard guard;
     const Folder folder("baked");
-    const std::vector<std::string> recipes{"pcf,placement=cascades", "vsm", "silhouette"};
+    const std::vector<std::string> recipes{"pcf,placement=cascades", "vsm", "pcf-poisson,placement=lispsm"};
     bake(folder.path, recipes);
     for (const std::string& recipe : recipes) {
         test::LentRenderer renderer(load_scene("courtyard"), 96, 54);
@@ -205,9 +205,14 @@ TEST(EmbedReload, AnEditedFunctionChangesTheNextFrame) {
     const fs::path file = data.path / "shadow/lookup/pcf/pcf.glsl";
     const std::string whole = text_of_file(file);
     const auto write = [&](const std::string& content) { std::ofstream(file) << content; };
-    const std::string text = whole +
-                             "#define gn_pcf_visibility(at, depth, ids, params) "
-                             "(0.5 * gn_pcf_visibility(at, depth, ids, params))\n";
+    const std::string head = "float gn_pcf_visibility(";
+    const std::string parameters = "GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {\n";
+    std::string text = whole;
+    const std::size_t begin = text.find(head + parameters);
+    ASSERT_NE(begin, std::string::npos);
+    text.replace(begin, head.size(), "float gn_pcf_whole(");
+    text.insert(text.find("\n}\n", begin) + 3,
+                head + parameters + "    return 0.5 * gn_pcf_whole(at, depth, ids, params);\n}\n");
     write(text);
     const Result<std::size_t> reloaded = shadows.reload();
     ASSERT_TRUE(reloaded.ok()) << reloaded.why();
@@ -215,8 +220,9 @@ TEST(EmbedReload, AnEditedFunctionChangesTheNextFrame) {
     const auto after = visibilities(shadows, renderer);
     std::size_t halved = 0;
     for (std::size_t i = 0; i < before[0].size(); ++i) {
-        // Beyond the map nobody asks.
-        ASSERT_TRUE(after[0][i] == 0.5F * before[0][i] || (before[0][i] == 1 && after[0][i] == 1)) << i;
+        // Beyond the map nobody asks; elsewhere V was clamped after it was halved, and before it was not.
+        ASSERT_TRUE(std::abs(after[0][i] - 0.5F * before[0][i]) < 1e-6F || (before[0][i] == 1 && after[0][i] == 1))
+            << i << ": " << before[0][i] << ", then " << after[0][i];
         halved += after[0][i] < before[0][i] ? 1 : 0;
     }
     EXPECT_GT(halved, before[0].size() / 4);

@@ -84,12 +84,13 @@ mat4 camera(bool orthographic, bool reversed) {
 
 constexpr uint kinds = light_kind_names.size();
 
-/// A point or a small light, and a large one; from aside, as the camera looks, against it, and where it reaches nothing.
-constexpr std::size_t situations = 8;
+/// A point or a small light, and a large one; from aside, as the camera looks, against it, among what receives, and where it
+/// reaches nothing.
+constexpr std::size_t situations = 10;
 
 /// A light of every kind in one of the situations: together, as a placement serves some and leaves others to another one.
 std::array<GnLight, kinds> lights_in(std::size_t situation) {
-    const std::array from_ws{vec3(3, 6, 4), vec3(0, 5, 7), vec3(0, 4, -6), vec3(0, 400, 0)};
+    const std::array from_ws{vec3(3, 6, 4), vec3(0, 5, 7), vec3(0, 4, -6), vec3(0.5F, 1, 0.5F), vec3(0, 400, 0)};
     const vec3 p_ws = from_ws.at(situation / 2);
     const float size = situation % 2 == 0 ? 0.0F : 0.3F;
     const vec3 d_ws = glm::normalize(-p_ws);
