@@ -139,6 +139,18 @@ TEST(EmbedBaked, WithoutACompilerItIsSaidAtOnce) {
     EXPECT_NE(made.why().find("gnomon bake pcf -o"), std::string::npos) << made.why();
 }
 
+/// Renderers of three scenes, made once for all recipes.
+std::vector<test::LentRenderer>& renderers() {
+    static std::vector<test::LentRenderer> all = [] {
+        std::vector<test::LentRenderer> made;
+        for (const char* scene : {"courtyard", "contact", "corridor"}) {
+            made.emplace_back(load_scene(scene), 64, 48);
+        }
+        return made;
+    }();
+    return all;
+}
+
 /// Every recipe that can be embedded: frames of real scenes on this device bind nothing that the rehearsal did not find.
 class Rehearsed : public testing::TestWithParam<std::string> {};
 
@@ -153,13 +165,12 @@ TEST_P(Rehearsed, FindsAllThatFramesBind) {
     Result<Shadows> shadows = make(GetParam(), {});
     ASSERT_TRUE(shadows.ok()) << shadows.why();
     std::size_t bound = 0;
-    for (const char* scene : {"courtyard", "contact", "corridor"}) {
-        test::LentRenderer renderer(load_scene(scene), 64, 48);
+    for (test::LentRenderer& renderer : renderers()) {
         for (std::uint32_t i = 0; i < 4; ++i) {
             renderer.poses += i / 2;
             const auto rehearsed = shadows.value().rehearse(renderer.frame(i % 2), [&](const ShaderSource& source) {
                 ++bound;
-                EXPECT_TRUE(found->shaders.contains(baked_key(source))) << source.name << " on " << scene;
+                EXPECT_TRUE(found->shaders.contains(baked_key(source))) << source.name << " on " << renderer.scene.name;
             });
             EXPECT_TRUE(rehearsed.ok()) << rehearsed.why();
         }
