@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -95,6 +96,9 @@ TEST(EmbedBaked, WhatIsMissingIsASentenceThatSaysHowToMakeIt) {
     bake(folder.path, {"pcf"});
     EXPECT_NE(make("vsm", folder.path).why().find("gnomon bake pcf vsm -o " + folder.path.string()), std::string::npos)
         << make("vsm", folder.path).why();
+    const fs::path recipe = folder.path / "recipes" / "hard.toml";
+    ASSERT_EQ(mkfifo(recipe.c_str(), 0600), 0);
+    EXPECT_NE(make("hard", folder.path).why().find("hard"), std::string::npos) << "a pipe would never end";
     EXPECT_NE(make("pcf", folder.path / "nowhere").why().find("gnomon bake RECIPE"), std::string::npos);
 
     // Values that shaders are given were not baked; what composes them was.

@@ -99,12 +99,15 @@ std::filesystem::path recipes_of(const std::filesystem::path& data) {
 }
 
 toml::table read_file(const std::filesystem::path& path, const std::string& where) {
-    // Read the whole file once it is known to be one, and small.
+    // Open it once it is known to be a plain file: a pipe would never end. Read it once it is known to be small.
     std::error_code code;
-    const std::uintmax_t bytes =
-        std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (code || !stream || !std::filesystem::is_regular_file(path, code)) {
+    const bool plain = std::filesystem::is_regular_file(path, code);
+    const std::uintmax_t bytes = plain ? std::filesystem::file_size(path, code) : 0;
+    std::ifstream stream;
+    if (plain && !code) {
+        stream.open(path, std::ios::binary);
+    }
+    if (!stream.is_open()) {
         fail("{}: no such recipe file, or it cannot be read; shipped recipes go by name ('gnomon list recipes')",
              where);
     }
