@@ -198,7 +198,7 @@ TEST_F(Shaders, AnUndoneReloadIsTriedAgain) {
     auto shaders = compiler();
     const CompiledShader& shader = shaders.compile(reader("reader"));
     const auto first = shader.spirv;
-    write("value.glsl", "float value() { return 23.0; }\n");
+    write("value.glsl", "float value() { return 2.0; }\n");
     EXPECT_EQ(shaders.reload().size(), 1U);
     shaders.undo_reload();
     EXPECT_EQ(shader.spirv, first);
