@@ -14,8 +14,8 @@ namespace gn {
 
 /// One thing that shaders may be composed by: a feature, or whether the device is a CPU.
 struct DeviceTrait {
-    std::optional<Feature> feature;  ///< unset: it is a CPU
-    auto operator<=>(const DeviceTrait&) const = default;
+    std::optional<Feature> feature;                        ///< unset: it is a CPU
+    auto operator<=>(const DeviceTrait&) const = default;  // NOLINT(modernize-use-nullptr): of the default itself
     [[nodiscard]] std::string name() const { return std::string(feature ? feature_name(*feature) : "cpu"); }
 };
 

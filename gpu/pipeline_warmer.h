@@ -9,13 +9,13 @@ namespace gn {
 
 class SilentRecorder : public Recorder {
   public:
-    explicit SilentRecorder(const GraphDeclaration& declaration) : declaration_(declaration) {}
+    explicit SilentRecorder(const GraphDeclaration& declared) : declaration(declared) {}
 
     /// Starts a pass, whose attachments its pipelines must know.
     virtual void begin(const DeclaredPass&) {}
 
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const override {
-        return declaration_.textures.at(texture.index).desc;
+        return declaration.textures.at(texture.index).desc;
     }
 
     // Commands leave no trace.
@@ -44,16 +44,15 @@ class SilentRecorder : public Recorder {
     [[nodiscard]] VkCommandBuffer vk() const override { return VK_NULL_HANDLE; }
 
   protected:
-    const GraphDeclaration& declaration_;
+    const GraphDeclaration& declaration;
 };
 
 /// Makes what is bound.
 class PipelineWarmer final : public SilentRecorder {
   public:
-    PipelineWarmer(Device& device, const GraphDeclaration& declaration)
-        : SilentRecorder(declaration), device_(device) {}
+    PipelineWarmer(Device& device, const GraphDeclaration& declared) : SilentRecorder(declared), device_(device) {}
 
-    void begin(const DeclaredPass& pass) override { formats_ = attachment_formats(declaration_, pass); }
+    void begin(const DeclaredPass& pass) override { formats_ = attachment_formats(declaration, pass); }
     void bind(const ComputeDesc& desc) override { device_.pipelines().get(desc); }
     void bind(const RasterDesc& desc) override { device_.pipelines().get(desc, formats_); }
     using SilentRecorder::set;
@@ -69,8 +68,8 @@ class PipelineWarmer final : public SilentRecorder {
 /// Tells which shaders are bound.
 class ShaderFinder final : public SilentRecorder {
   public:
-    ShaderFinder(const GraphDeclaration& declaration, const std::function<void(const ShaderSource&)>& found)
-        : SilentRecorder(declaration), found_(found) {}
+    ShaderFinder(const GraphDeclaration& declared, const std::function<void(const ShaderSource&)>& found)
+        : SilentRecorder(declared), found_(found) {}
 
     void bind(const ComputeDesc& desc) override { found_(desc.shader); }
     void bind(const RasterDesc& desc) override {
