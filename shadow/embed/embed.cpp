@@ -258,7 +258,12 @@ std::string Shadows::refuses(const GnLight& light) const noexcept {
 Result<std::vector<std::string>> Shadows::record(VkCommandBuffer commands, const Frame& frame) noexcept {
     auto recorded = guarded<std::vector<std::string>>([&] { return state_->record(commands, frame); });
     if (!recorded.ok()) {
-        state_->casters.forget();
+        // Nothing says how far its commands came: what they would have made is made with the next.
+        (void)guarded<Done>([&] {
+            state_->casters.forget();
+            state_->forget_history();
+            return Done{};
+        });
     }
     return recorded;
 }

@@ -152,6 +152,57 @@ TEST(Embed, TransformsMayLieElsewhereInEveryFrame) {
     });
 }
 
+/// V of a light from shadows that never saw another frame.
+std::vector<float> alone(test::LentRenderer& renderer, const std::string& recipe, std::size_t light) {
+    Result<Shadows> fresh = make(recipe);
+    EXPECT_TRUE(fresh.ok()) << fresh.why();
+    run(fresh.value(), renderer.frame());
+    return renderer.visibility(light);
+}
+
+TEST(Embed, AFrameThatFailedLeavesNothingBehind) {
+    const test::ValidationGuard guard;
+    // Maps are kept over frames. The sun's is declared in a frame that fails at the second light, and never drawn.
+    const char* recipe = "hard,resolution=512,placement=cascades,cascades.scroll=1";
+    test::LentRenderer renderer(hard_lit("courtyard"), 96, 54);
+    ASSERT_GT(renderer.scene.lights.size(), 1U);
+    const std::vector<float> expected = alone(renderer, recipe, 0);
+    Result<Shadows> made = make(recipe);
+    ASSERT_TRUE(made.ok()) << made.why();
+    Shadows& shadows = made.value();
+    Frame frame = renderer.frame();
+    std::vector<LentLight> lights(frame.lights.begin(), frame.lights.end());
+    lights[1].visibility.image = VK_NULL_HANDLE;
+    frame.lights = lights;
+    device().run([&](VkCommandBuffer commands) { EXPECT_FALSE(shadows.record(commands, frame).ok()); });
+
+    // A frame without the sun completes; the sun's own next frame finds a map that was drawn.
+    frame = renderer.frame(1);
+    frame.lights = frame.lights.subspan(1);
+    run(shadows, frame);
+    run(shadows, renderer.frame(0));
+    EXPECT_EQ(renderer.visibility(0), expected);
+}
+
+TEST(Embed, PicturesOfAnotherSizeAndCutsBeginAnew) {
+    const test::ValidationGuard guard;
+    const char* recipe = "pcf,resolution=512,placement=cascades,cascades.scroll=1";
+    test::LentRenderer small(hard_lit("contact"), 96, 64);
+    test::LentRenderer large(hard_lit("contact"), 160, 120);
+    const std::vector<float> expected = alone(small, recipe, 0), expected_large = alone(large, recipe, 0);
+    Result<Shadows> made = make(recipe);
+    ASSERT_TRUE(made.ok()) << made.why();
+    Shadows& shadows = made.value();
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        test::LentRenderer& renderer = i % 3 == 1 ? large : small;
+        Frame frame = renderer.frame(i % 2);
+        frame.cut = i == 5;
+        frame.casters.topology = i % 3 == 1 ? 2 : 1;
+        run(shadows, frame);
+        EXPECT_EQ(renderer.visibility(0), i % 3 == 1 ? expected_large : expected) << "frame " << i;
+    }
+}
+
 TEST(Embed, CastersMoveWithTheirTransforms) {
     const test::ValidationGuard guard;
     // The floor stays; everything else moves aside by a metre, on the device alone.
