@@ -100,6 +100,13 @@ Buffer upload_buffer(Device& device, const BufferDesc& desc, std::span<const std
 Texture2D upload_texture(Device& device, const TextureDesc& desc, std::span<const std::byte> data);
 /// Writes `data` to the buffer's beginning, after all that the device was given before; waits for it.
 void write_buffer(Device& device, const Buffer& buffer, std::span<const std::byte> data);
+/// Bytes, and where in a buffer they go.
+struct PlacedBytes {
+    VkDeviceSize offset = 0;
+    std::span<const std::byte> bytes;
+};
+/// The same for several places at once.
+void write_buffer(Device& device, const Buffer& buffer, std::span<const PlacedBytes> data);
 /// The bytes of a buffer or of one mip and layer of a texture, rows tightly packed; waits for the device.
 std::vector<std::byte> download(Device& device, const Buffer& buffer);
 std::vector<std::byte> download(Device& device, Texture2D& texture, std::uint32_t mip = 0, std::uint32_t layer = 0);

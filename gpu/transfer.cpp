@@ -115,18 +115,36 @@ Buffer upload_buffer(Device& device, const BufferDesc& desc, std::span<const std
 }
 
 void write_buffer(Device& device, const Buffer& buffer, std::span<const std::byte> data) {
-    if (data.empty()) {
+    const PlacedBytes all{0, data};
+    write_buffer(device, buffer, std::span(&all, 1));
+}
+
+void write_buffer(Device& device, const Buffer& buffer, std::span<const PlacedBytes> data) {
+    // Lay everything out behind each other.
+    std::vector<VkBufferCopy> regions;
+    VkDeviceSize total = 0;
+    for (const PlacedBytes& placed : data) {
+        const VkDeviceSize size = placed.bytes.size();
+        if (placed.offset > buffer.desc().bytes || size > buffer.desc().bytes - placed.offset) {
+            fail("buffer '{}' has {} bytes, and {} were to be written at {}", buffer.desc().name, buffer.desc().bytes,
+                 size, placed.offset);
+        }
+        if (size > 0) {
+            regions.push_back({total, placed.offset, size});
+            total += size;
+        }
+    }
+    if (regions.empty()) {
         return;
     }
-    if (data.size() > buffer.desc().bytes) {
-        fail("buffer '{}' has {} bytes, and {} were to be written", buffer.desc().name, buffer.desc().bytes,
-             data.size());
+    const Buffer staging = staging_buffer(device, buffer.desc().name, total);
+    std::byte* end = staging.mapped();
+    for (const PlacedBytes& placed : data) {
+        end = std::copy(placed.bytes.begin(), placed.bytes.end(), end);
     }
-    const Buffer staging = staging_buffer(device, buffer.desc().name, data.size());
-    std::memcpy(staging.mapped(), data.data(), data.size());
     device.run([&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, data.size()};
-        vkCmdCopyBuffer(commands, staging.vk(), buffer.vk(), 1, &region);
+        vkCmdCopyBuffer(commands, staging.vk(), buffer.vk(), static_cast<std::uint32_t>(regions.size()),
+                        regions.data());
     });
 }
 

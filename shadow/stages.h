@@ -9,6 +9,7 @@
 #include "gpu/frame_graph.h"
 #include "shadow/light_view.h"
 #include "shadow/receiver/bias.h"
+#include "shadow/scene/moves.h"
 #include "shadow/scene/scene.h"
 
 #include <algorithm>
@@ -41,12 +42,23 @@ struct SceneGpu {
     std::uint64_t version = 0;
     /// What is derived of the geometry of this version: edges, planes, lists of what casts.
     std::shared_ptr<Kept> derived = std::make_shared<Kept>();
+    /// What moved from version to version; whoever writes into the buffers and takes a new version tells it.
+    std::shared_ptr<Moves> moves = std::make_shared<Moves>();
+    /// What the buffers hold of each object of the scene.
+    struct Uploaded {
+        std::uint64_t version = 0;  ///< Object::version
+        Box bounds_ws;
+    };
+    std::vector<Uploaded> objects;
 };
 /// A version that no geometry has had in this process.
 std::uint64_t next_version();
 SceneGpu upload_scene(Device& device, const Scene& scene);
-/// Brings positions and normals that moved on the CPU (shadow/scene/move.h) to the GPU, as a new version; waits for the device.
+/// Brings positions and normals of the objects whose version is another than what was brought before (shadow/scene/move.h) to
+/// the GPU, as a new version that tells where they moved; waits for the device. Where no object did, nothing is done.
 void refresh_scene(Device& device, SceneGpu& scene);
+
+struct DrawnCasters;  // shadow/casters/drawn.h
 
 /// The scene's buffers in one frame's graph.
 struct SceneHandles {
@@ -55,6 +67,14 @@ struct SceneHandles {
     TextureHandle white;
     std::uint64_t version = 0;  ///< SceneGpu::version
     std::shared_ptr<Kept> derived;
+    std::shared_ptr<const Moves> moves;   ///< SceneGpu::moves; null where it is not told what moves
+    std::shared_ptr<DrawnCasters> drawn;  ///< draws what casts where no buffer holds it; null: the buffers do
+    /// Boxes (ws) that touch all that differs from the geometry of a version; unset where anything may.
+    [[nodiscard]] std::optional<std::vector<Box>> touched_since(std::uint64_t before) const {
+        return moves != nullptr    ? moves->since(before)
+               : before == version ? std::vector<Box>{}
+                                   : std::optional<std::vector<Box>>{};
+    }
 };
 
 /// The camera's constants for shaders (shadow/view/view.glsl has the same struct).
@@ -80,6 +100,9 @@ struct ViewSamples {
     TextureHandle material;        ///< RGBA8: roughness, metallic, object id (low byte, high byte)
     TextureHandle emission;        ///< RGBA16F: emitted radiance, cd/m^2
     TextureHandle depth;           ///< D32_SFLOAT_S8: reversed depth of the camera; stencil is free for direct parts
+    /// Clip space of the frame before (x, y and w of it count), from this frame's world space, where whoever lends the samples
+    /// says so; else it is what the history remembers (shadow/receiver/reprojection.h).
+    std::optional<mat4> before_cs_from_ws{};
 };
 
 /// The same samples on the CPU, for the truth and the metrics: width * height entries, rows top to bottom.

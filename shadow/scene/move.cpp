@@ -55,7 +55,6 @@ void move_object(Scene& scene, std::size_t index, const mat4& moved_from_ws) {
 
     // Points by the transform, normals by its inverse's transpose.
     const glm::dmat3 normals = glm::transpose(glm::inverse(glm::dmat3(exact)));
-    object.before_ws = object.bounds_ws;
     object.bounds_ws = {};
     for (const std::uint32_t v : vertices) {
         scene.positions_ws[v] = vec3(exact * dvec4(dvec3(scene.positions_ws[v]), 1));
@@ -64,7 +63,7 @@ void move_object(Scene& scene, std::size_t index, const mat4& moved_from_ws) {
         scene.normals_ws[v] = length > 0.0 ? vec3(n_ws / length) : vec3(0);  // none was given, none is made up
         object.bounds_ws.grow(scene.positions_ws[v]);
     }
-    object.before_from_now = mat4(glm::inverse(exact));
+    object.now_from_first = exact * object.now_from_first;
     ++object.version;
     scene.bounds_ws = {};
     for (const Object& any : scene.objects) {

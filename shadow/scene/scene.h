@@ -48,8 +48,8 @@ struct Object {
     std::optional<bool> casts;  ///< told to cast, or not to; unset: as the material does
     bool receives = true;       ///< false: no shadow falls on it, and it is left out of the errors
     std::uint64_t version = 0;  ///< of its geometry: another one after every move (shadow/scene/move.h)
-    Box before_ws;              ///< its bounds before the latest move; empty where it never moved
-    mat4 before_from_now{1};    ///< ws: where its points were before that move
+    /// ws: takes its points from where they were at first to where they are, by all of its moves.
+    dmat4 now_from_first{1};
 };
 
 /// Names of the light kinds, by GnLight::kind.

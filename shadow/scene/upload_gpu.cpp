@@ -2,6 +2,7 @@
 // The scene on the GPU: five buffers and the base colour textures.
 #include "shadow/frame/frame.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 
@@ -38,6 +39,10 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     SceneGpu gpu;
     gpu.scene = &scene;
     gpu.version = next_version();
+    gpu.moves->add(0, gpu.version, {});
+    for (const Object& object : scene.objects) {
+        gpu.objects.push_back({object.version, object.bounds_ws});
+    }
     gpu.positions = upload(device, "positions", scene.positions_ws, vertex);
     gpu.normals = upload(device, "normals", scene.normals_ws, vertex);
     gpu.uvs = upload(device, "uvs", scene.uvs, vertex);
@@ -52,10 +57,72 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     return gpu;
 }
 
+namespace {
+
+/// A range of vertices, end exclusive.
+struct Vertices {
+    std::uint32_t begin = ~0U, end = 0;
+};
+
+Vertices vertices_of(const Scene& scene, const Object& object) {
+    Vertices range;
+    for (const uvec3 t : std::span(scene.triangles).subspan(object.first_triangle, object.triangle_count)) {
+        range.begin = std::min({range.begin, t.x, t.y, t.z});
+        range.end = std::max({range.end, t.x + 1, t.y + 1, t.z + 1});
+    }
+    return range;
+}
+
+/// Ascending, joined where they touch or little lies between: a copy costs as much as some kilobytes.
+std::vector<Vertices> joined(std::vector<Vertices> ranges) {
+    constexpr std::uint32_t gap = 256;
+    std::sort(ranges.begin(), ranges.end(), [](const Vertices& a, const Vertices& b) { return a.begin < b.begin; });
+    std::vector<Vertices> joined;
+    for (const Vertices& range : ranges) {
+        if (joined.empty() || range.begin > joined.back().end + gap) {
+            joined.push_back(range);
+        } else {
+            joined.back().end = std::max(joined.back().end, range.end);
+        }
+    }
+    return joined;
+}
+
+void write_vertices(Device& device, const Buffer& buffer, const std::vector<vec3>& values,
+                    const std::vector<Vertices>& ranges) {
+    std::vector<PlacedBytes> placed;
+    for (const Vertices& range : ranges) {
+        placed.push_back({range.begin * sizeof(vec3),
+                          std::as_bytes(std::span(values).subspan(range.begin, range.end - range.begin))});
+    }
+    write_buffer(device, buffer, placed);
+}
+
+}  // namespace
+
 void refresh_scene(Device& device, SceneGpu& scene) {
-    write_buffer(device, scene.positions, std::as_bytes(std::span(scene.scene->positions_ws)));
-    write_buffer(device, scene.normals, std::as_bytes(std::span(scene.scene->normals_ws)));
+    std::vector<Vertices> moved;
+    std::vector<Box> touched_ws;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.scene->objects[i];
+        SceneGpu::Uploaded& held = scene.objects[i];
+        if (object.version == held.version || object.triangle_count == 0) {
+            continue;
+        }
+        moved.push_back(vertices_of(*scene.scene, object));
+        touched_ws.push_back(held.bounds_ws);
+        touched_ws.push_back(object.bounds_ws);
+        held = {object.version, object.bounds_ws};
+    }
+    if (moved.empty()) {
+        return;
+    }
+    const std::vector<Vertices> ranges = joined(std::move(moved));
+    write_vertices(device, scene.positions, scene.scene->positions_ws, ranges);
+    write_vertices(device, scene.normals, scene.scene->normals_ws, ranges);
+    const std::uint64_t before = scene.version;
     scene.version = next_version();
+    scene.moves->add(before, scene.version, std::move(touched_ws));
 }
 
 SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
@@ -70,6 +137,7 @@ SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
     handles.white = graph.import(scene.white);
     handles.version = scene.version;
     handles.derived = scene.derived;
+    handles.moves = scene.moves;
     return handles;
 }
 

@@ -10,6 +10,7 @@
 #include "shadow/scene/casting.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace gn::cascades {
 namespace {
@@ -89,6 +90,35 @@ std::vector<KeptDraw> draws_of(const Scene& scene, const Grid& grid, int layer, 
     return draws;
 }
 
+/// The texels of a window that the shadows of what lies in a box fall on, with a texel around them for rounding.
+Texels touched_by(const Grid& grid, const Box& box_ws, const Texels& window) {
+    dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+    for (const vec3 corner_ws : box_ws.corners()) {
+        low = glm::min(low, texel_of(grid, dvec3(corner_ws)));
+        high = glm::max(high, texel_of(grid, dvec3(corner_ws)));
+    }
+    const dvec2 first(window.low), last(window.high);
+    return {ivec2(glm::clamp(glm::floor(low) - 1.0, first, last)),
+            ivec2(glm::clamp(glm::ceil(high) + 1.0, first, last))};
+}
+
+/// Adds what moved to what must be drawn; where that is most of the window, it is drawn as a whole.
+void add_touched(const Grid& grid, std::span<const Box> touched_ws, const Texels& window, std::vector<Texels>& fresh) {
+    const std::int64_t all = std::int64_t{grid.resolution} * grid.resolution;
+    std::int64_t area = 0;
+    for (const Box& box_ws : touched_ws) {
+        const Texels touched = touched_by(grid, box_ws, window);
+        if (!touched.empty()) {
+            const ivec2 size = touched.high - touched.low;
+            area += std::int64_t{size.x} * size.y;
+            fresh.push_back(touched);
+        }
+    }
+    if (2 * area > all) {
+        fresh = {window};
+    }
+}
+
 bool same_grid(const GnLightView& a, const GnLightView& b) {
     bool same = a.resolution == b.resolution && a.depth_from_ws == b.depth_from_ws && a.grid == b.grid;
     for (int column = 0; column < 3; ++column) {
@@ -115,9 +145,11 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
     const auto* before = input.history->before<KeptState>(name);
     KeptState state = before != nullptr ? *before : KeptState{};
     const Fingerprint casting = casting_of(input.scene, input.light(), recipe);
-    if (state.version != input.handles.version || state.casting != casting || state.cascades.size() != windows.size()) {
-        state = {std::vector<Kept>(windows.size()), input.handles.version, casting};
+    const std::optional<std::vector<Box>> touched_ws = input.handles.touched_since(state.version);
+    if (!touched_ws || state.casting != casting || state.cascades.size() != windows.size()) {
+        state = {std::vector<Kept>(windows.size()), 0, casting};
     }
+    state.version = input.handles.version;
     for (std::size_t i = 0; i < windows.size(); ++i) {
         const Grid& grid = windows[i].grid;
         const int n = grid.resolution;
@@ -133,7 +165,7 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
         const ivec2 first = stay ? last.first : wanted;
         const Texels window{first, first + n};
 
-        // Draw what is new: everything, or what the old window did not show.
+        // Draw what is new: everything, or what the old window did not show and where something moved.
         const std::vector<Texels> everything{window};
         std::vector<Texels> fresh = everything;
         if (stay) {
@@ -141,6 +173,7 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
         } else if (usable && params.scroll != 0) {
             fresh = outside(window, {last.first, last.first + n});
         }
+        add_touched(grid, touched_ws.value_or(std::vector<Box>{}), window, fresh);
         const int layer = static_cast<int>(i);
         kept.layers.push_back({(first % n + n) % n, draws_of(input.scene, grid, layer, fresh),
                                draws_of(input.scene, grid, layer, everything)});
