@@ -6,6 +6,7 @@
 #include "shadow/light/weighted.h"
 #include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
+#include "shadow/receiver/reprojection.h"
 #include "shadow/recipe/check_recipe.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/read_back.h"
@@ -104,6 +105,9 @@ std::vector<LightShadow> add_frame(FrameGraph& graph, const ViewSamples& receive
     const std::string outer = graph.group();
     graph.group("shadow");
     std::vector<LightShadow> shadows;
+    if (history != nullptr) {
+        leave_frame(*history, receivers, casters.scene, casters.handles);
+    }
     for (const FrameLight& light : lights) {
         shadows.emplace_back();
         const FrameInput input{graph.device(), graph,    casters.scene, casters.handles, receivers,
