@@ -26,7 +26,9 @@ namespace {
 
 class VulkanDevice final : public Device {
   public:
-    explicit VulkanDevice(const DeviceOptions& options) : validates_(options.validation) {
+    // Both begin with a device that is whole: where one fails halfway, the destructor takes back what it made.
+    explicit VulkanDevice(const DeviceOptions& options) : VulkanDevice() {
+        validates_ = options.validation;
         instance_.emplace(options.validation, log_);
         std::vector<Candidate> candidates = examine_all(instance_->vk());
         const char* variable = std::getenv("GNOMON_DEVICE");
@@ -39,7 +41,8 @@ class VulkanDevice final : public Device {
         create_parts();
     }
 
-    VulkanDevice(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders) : shaders_(std::move(shaders)) {
+    VulkanDevice(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders) : VulkanDevice() {
+        shaders_ = std::move(shaders);
         candidate_ = examine(host.physical);
         if (!candidate_.missing.empty()) {
             fail("the host's device '{}' lacks {}", candidate_.info.name, candidate_.missing);
@@ -60,11 +63,11 @@ class VulkanDevice final : public Device {
             }
         }
         candidate_.info.why = "the host renderer lent it";
+        adopted_ = true;
         vk_instance_ = host.instance;
         device_ = host.device;
         queue_ = host.queue;
         queue_family_ = host.queue_family;
-        adopted_ = true;
         create_parts();
     }
 
@@ -132,6 +135,8 @@ class VulkanDevice final : public Device {
     }
 
   private:
+    VulkanDevice() = default;
+
     void create_device() {
         const float priority = 1.0F;
         const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

@@ -176,6 +176,17 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     const bool stamps = impl_->device.has(Feature::timestamps);
     PassWriter writer(impl_->device, declaration, *planned.resources, slot.arena);
 
+    // What a frame that fails waits for never comes.
+    struct Waiting {
+        Slot& slot;
+        bool whole = false;
+        ~Waiting() {
+            if (!whole) {
+                slot.waiting.clear();
+            }
+        }
+    } waiting{slot};
+
     // Frames share their transients, so that each begins after all that was recorded before.
     global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
@@ -193,6 +204,7 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     }
     write_answers(declaration, planned, answers, slot, commands);
     slot.recorded = held;
+    waiting.whole = true;
     return planned.plan.final_layouts;
 }
 

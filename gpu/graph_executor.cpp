@@ -15,17 +15,27 @@ GraphExecutor::GraphExecutor(Device& device) : device_(device), arena_(device), 
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = device.queue_family()};
     GN_VK(vkCreateCommandPool(device.vk(), &pool, nullptr, &pool_));
+    const auto made = [&](VkResult result, const char* call) {
+        if (result != VK_SUCCESS) {
+            destroy();
+        }
+        vk_check(result, call, __FILE__, __LINE__);
+    };
     const VkCommandBufferAllocateInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = pool_,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
-    GN_VK(vkAllocateCommandBuffers(device.vk(), &commands, &commands_));
+    made(vkAllocateCommandBuffers(device.vk(), &commands, &commands_), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    GN_VK(vkCreateFence(device.vk(), &fence, nullptr, &fence_));
+    made(vkCreateFence(device.vk(), &fence, nullptr, &fence_), "vkCreateFence");
     ++device.counters().pools;
 }
 
 GraphExecutor::~GraphExecutor() {
+    destroy();
+}
+
+void GraphExecutor::destroy() {
     vkDestroyFence(device_.vk(), fence_, nullptr);
     vkDestroyCommandPool(device_.vk(), pool_, nullptr);
 }

@@ -19,6 +19,7 @@ class GraphExecutor {
                             const std::vector<Execute>& executes, bool timed);
 
   private:
+    void destroy();
     void begin();
     void end_and_wait();
     std::vector<double> run_apart(const GraphPlan& plan, const std::vector<Execute>& executes, PassWriter& writer);

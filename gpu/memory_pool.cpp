@@ -110,9 +110,16 @@ VkDeviceMemory MemoryPool::allocate_whole(VkDeviceSize bytes, std::uint32_t type
     return memory;
 }
 
-std::byte* MemoryPool::map(VkDeviceMemory memory) {
+std::byte* MemoryPool::map_or_free(VkDeviceMemory memory, MemoryUse use) {
+    if (use != MemoryUse::host) {
+        return nullptr;
+    }
     void* mapped = nullptr;
-    GN_VK(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+    const VkResult result = vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+    if (result != VK_SUCCESS) {
+        vkFreeMemory(device_, memory, nullptr);
+    }
+    vk_check(result, "vkMapMemory", __FILE__, __LINE__);
     return static_cast<std::byte*>(mapped);
 }
 
@@ -120,7 +127,7 @@ MemorySlice MemoryPool::allocate(const VkMemoryRequirements& needs, MemoryUse us
     const std::uint32_t type = choose_type(needs.memoryTypeBits, use, what);
     if (needs.size > small_bytes) {
         const VkDeviceMemory memory = allocate_whole(needs.size, type, what);
-        return {memory, 0, needs.size, use == MemoryUse::host ? map(memory) : nullptr, ~0U};
+        return {memory, 0, needs.size, map_or_free(memory, use), ~0U};
     }
 
     // Look through the chunks of this kind; images and buffers never share one (bufferImageGranularity).
@@ -139,8 +146,8 @@ MemorySlice MemoryPool::allocate(const VkMemoryRequirements& needs, MemoryUse us
     }
 
     const VkDeviceMemory memory = allocate_whole(chunk_bytes, type, what);
-    chunks_.push_back(std::make_unique<Chunk>(
-        Chunk{memory, use == MemoryUse::host ? map(memory) : nullptr, type, use, FreeList(chunk_bytes)}));
+    chunks_.push_back(
+        std::make_unique<Chunk>(Chunk{memory, map_or_free(memory, use), type, use, FreeList(chunk_bytes)}));
     const auto index = static_cast<std::uint32_t>(chunks_.size() - 1);
     return slice_of(index, chunks_.back()->free.take(needs.size, needs.alignment));
 }

@@ -74,7 +74,8 @@ class MemoryPool {
     };
     [[nodiscard]] std::uint32_t choose_type(std::uint32_t type_bits, MemoryUse use, std::string_view what) const;
     VkDeviceMemory allocate_whole(VkDeviceSize bytes, std::uint32_t type, std::string_view what);
-    std::byte* map(VkDeviceMemory memory);
+    /// Where memory for the host is mapped, null for other uses; memory that cannot be mapped is freed.
+    std::byte* map_or_free(VkDeviceMemory memory, MemoryUse use);
 
     VkDevice device_;
     std::uint64_t& allocations_;

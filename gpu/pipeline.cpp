@@ -166,8 +166,25 @@ void PipelineCache::destroy(Pipeline& pipeline) const {
     vkDestroyDescriptorSetLayout(device_.vk(), pipeline.set_layout, nullptr);
 }
 
-Pipeline PipelineCache::lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point) {
-    Pipeline pipeline{.name = stages.back()->name, .bind_point = bind_point, .bindings = merge_bindings(stages)};
+/// A pipeline in the making, of which nothing is left where that fails.
+class PipelineCache::Unfinished {
+  public:
+    Unfinished(const PipelineCache& cache, VkPipelineBindPoint bind_point) : cache_(cache) {
+        pipeline.bind_point = bind_point;
+    }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+    ~Unfinished() { cache_.destroy(pipeline); }
+    Pipeline finish() { return std::exchange(pipeline, {}); }
+    Pipeline pipeline;
+
+  private:
+    const PipelineCache& cache_;
+};
+
+void PipelineCache::lay_out(Pipeline& pipeline, std::span<const CompiledShader* const> stages) {
+    pipeline.name = stages.back()->name;
+    pipeline.bindings = merge_bindings(stages);
     for (const CompiledShader* stage : stages) {
         pipeline.stages |= static_cast<VkShaderStageFlags>(stage_of(stage->kind));
         pipeline.push_constant_bytes = std::max(pipeline.push_constant_bytes, stage->push_constant_bytes);
@@ -195,19 +212,20 @@ Pipeline PipelineCache::lay_out(std::span<const CompiledShader* const> stages, V
                                             .pushConstantRangeCount = push.size > 0 ? 1U : 0U,
                                             .pPushConstantRanges = &push};
     GN_VK(vkCreatePipelineLayout(device_.vk(), &layout, nullptr, &pipeline.layout));
-    return pipeline;
 }
 
 Pipeline PipelineCache::make(const ComputeDesc& desc) {
     const CompiledShader* shader = &device_.shaders().compile(desc.shader);
-    Pipeline pipeline = lay_out(std::span(&shader, 1), VK_PIPELINE_BIND_POINT_COMPUTE);
+    Unfinished made(*this, VK_PIPELINE_BIND_POINT_COMPUTE);
+    Pipeline& pipeline = made.pipeline;
+    lay_out(pipeline, std::span(&shader, 1));
     const Specialization specialization(desc.constants);
     const Module module(device_.vk(), *shader, specialization);
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
     GN_VK(vkCreateComputePipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
-    return pipeline;
+    return made.finish();
 }
 
 Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& formats) {
@@ -219,7 +237,9 @@ Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& fo
     if (desc.fragment) {
         shaders.push_back(&device_.shaders().compile(*desc.fragment));
     }
-    Pipeline pipeline = lay_out(shaders, VK_PIPELINE_BIND_POINT_GRAPHICS);
+    Unfinished made(*this, VK_PIPELINE_BIND_POINT_GRAPHICS);
+    Pipeline& pipeline = made.pipeline;
+    lay_out(pipeline, shaders);
     const Specialization specialization(desc.constants);
     std::vector<Module> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -244,7 +264,7 @@ Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& fo
                                             .layout = pipeline.layout};
     GN_VK(vkCreateGraphicsPipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
     ++device_.counters().pipelines;
-    return pipeline;
+    return made.finish();
 }
 
 const Pipeline& PipelineCache::get(const ComputeDesc& desc) {

@@ -74,7 +74,8 @@ class PipelineCache {
     void load();
     Pipeline make(const ComputeDesc& desc);
     Pipeline make(const RasterDesc& desc, const AttachmentFormats& formats);
-    Pipeline lay_out(std::span<const CompiledShader* const> stages, VkPipelineBindPoint bind_point);
+    class Unfinished;
+    void lay_out(Pipeline& pipeline, std::span<const CompiledShader* const> stages);
     void destroy(Pipeline& pipeline) const;
 
     Device& device_;
