@@ -312,6 +312,7 @@ std::string FrameGraph::describe() const {
 
 const GraphPlan& FrameGraph::plan() {
     impl_->prepare();
+    impl_->statistics = account(impl_->declaration, impl_->plan, {});
     return impl_->plan;
 }
 

@@ -149,7 +149,10 @@ class Recorder {
                       VkDeviceSize to_offset = 0) = 0;
     virtual void fill(BufferHandle buffer, std::uint32_t word) = 0;
     [[nodiscard]] virtual const TextureDesc& desc(TextureHandle texture) const = 0;
+    /// The commands themselves, null where only pipelines are made. Whoever records into them says so with `forget`: what is
+    /// bound is then bound anew, and viewport and scissor cover the whole target again.
     [[nodiscard]] virtual VkCommandBuffer vk() const = 0;
+    virtual void forget() = 0;
 };
 
 struct PassTime {
@@ -218,6 +221,7 @@ class FrameGraph {
     /// Neither submits nor waits; imported textures are left in the layouts that they say afterwards. What is imported
     /// must live until the slot is taken up again. Throws Error.
     void record(Frames& frames, VkCommandBuffer commands);
+    /// Of the last execute, or of the last plan without times.
     [[nodiscard]] const GraphStatistics& statistics() const;
     /// Contents after execute of a kept transient or an imported resource, rows tightly packed.
     std::vector<std::byte> download(TextureHandle texture, std::uint32_t mip = 0, std::uint32_t layer = 0);

@@ -42,6 +42,7 @@ class SilentRecorder : public Recorder {
     void copy(BufferHandle, BufferHandle, VkDeviceSize, VkDeviceSize, VkDeviceSize) override {}
     void fill(BufferHandle, std::uint32_t) override {}
     [[nodiscard]] VkCommandBuffer vk() const override { return VK_NULL_HANDLE; }
+    void forget() override {}
 
   protected:
     const GraphDeclaration& declaration;

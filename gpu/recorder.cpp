@@ -134,10 +134,23 @@ void GraphRecorder::begin_rendering() {
         .pStencilAttachment = has_depth && has_stencil(formats_.depth) ? &stencil : nullptr,
     };
     vkCmdBeginRendering(commands_, &info);
+    begin_state();
+}
+
+void GraphRecorder::begin_state() {
     viewport(0, 0, static_cast<float>(width_), static_cast<float>(height_));
     scissor(0, 0, width_, height_);
     vkCmdSetDepthBias(commands_, 0, 0, 0);
     vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, 0);
+}
+
+void GraphRecorder::forget() {
+    pipeline_ = nullptr;
+    descriptors_stale_ = push_stale_ = true;
+    has_index_buffer_ = has_vertex_buffer_ = false;
+    if (rendering_) {
+        begin_state();
+    }
 }
 
 void GraphRecorder::viewport(float x, float y, float width, float height) {

@@ -47,6 +47,7 @@ class GraphRecorder final : public Recorder {
     void fill(BufferHandle buffer, std::uint32_t word) override;
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const override;
     [[nodiscard]] VkCommandBuffer vk() const override { return commands_; }
+    void forget() override;
 
   private:
     enum class SlotKind { texture, storage, buffer, bytes };
@@ -67,6 +68,8 @@ class GraphRecorder final : public Recorder {
     };
 
     void begin_rendering();
+    /// Viewport, scissor, bias and reference as a pass with attachments begins.
+    void begin_state();
     /// Lets a name stand for something; descriptors stay as they are where it already did.
     void stand_for(std::string_view name, const Slot& what);
     [[nodiscard]] Range resolve(TextureHandle texture, Range range, std::string_view what) const;

@@ -24,7 +24,7 @@ class Renderer {
     Renderer(const HostDevice& host, const Options& options)
         : host_(host),
           world_(options.objects),
-          shadows_(host, world_, options.recipe, options.baked, options.size),
+          shadows_(host, world_, options.recipe, options.baked, options.size, options.draw_casters),
           scene_(host, world_),
           shade_(host) {
         for (auto& slot : slots_) {

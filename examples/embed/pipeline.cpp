@@ -56,8 +56,11 @@ void Pipeline::make_layout(const PipelineDesc& desc) {
 
 void Pipeline::make_pipeline(const PipelineDesc& desc) {
     const VkShaderModule vertex = make_module(device_, desc.vertex);
-    const VkShaderModule fragment = make_module(device_, desc.fragment);
-    const std::array stages{stage(VK_SHADER_STAGE_VERTEX_BIT, vertex), stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
+    const VkShaderModule fragment = desc.fragment.empty() ? VK_NULL_HANDLE : make_module(device_, desc.fragment);
+    std::vector stages{stage(VK_SHADER_STAGE_VERTEX_BIT, vertex)};
+    if (fragment != VK_NULL_HANDLE) {
+        stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment));
+    }
 
     // One interleaved vertex buffer, or none.
     const VkVertexInputBindingDescription binding{0, desc.stride, VK_VERTEX_INPUT_RATE_VERTEX};
@@ -81,11 +84,12 @@ void Pipeline::make_pipeline(const PipelineDesc& desc) {
     raster.cullMode = tested ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
+    raster.depthClampEnable = desc.of_light ? VK_TRUE : VK_FALSE;
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = depth.depthWriteEnable = tested ? VK_TRUE : VK_FALSE;
-    depth.depthCompareOp = VK_COMPARE_OP_GREATER;
+    depth.depthCompareOp = desc.of_light ? VK_COMPARE_OP_LESS : VK_COMPARE_OP_GREATER;
     VkPipelineColorBlendAttachmentState written{};
     written.colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;

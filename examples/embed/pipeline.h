@@ -8,13 +8,14 @@
 #include <vector>
 
 struct PipelineDesc {
-    std::span<const std::uint32_t> vertex, fragment;  ///< SPIR-V
+    std::span<const std::uint32_t> vertex, fragment;  ///< SPIR-V; an empty fragment leaves depth to the rasterizer
     std::vector<VkDescriptorType> bindings;           ///< seen by both stages
     std::uint32_t push_bytes = 0;                     ///< of push constants, at most 128
     std::vector<std::uint32_t> attributes;            ///< offsets of vec3 in a vertex, bytes; none: no vertex buffer
     std::uint32_t stride = 0;                         ///< of a vertex, bytes
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;  ///< reversed: the greater is nearer
+    bool of_light = false;  ///< for views of lights: the less is nearer, and what lies before them is clamped
 };
 
 class Pipeline {

@@ -34,6 +34,13 @@ ScenePass::ScenePass(const HostDevice& host, const World& world)
                        .colors = {normals_format, albedo_format},
                        .depth = depth_format}) {}
 
+void ScenePass::bind_meshes(VkCommandBuffer commands) const {
+    const VkBuffer vertices = vertices_.vk();
+    const VkDeviceSize begin = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &begin);
+    vkCmdBindIndexBuffer(commands, indices_.vk(), 0, VK_INDEX_TYPE_UINT32);
+}
+
 void ScenePass::record(VkCommandBuffer commands, const Targets& targets, const HostBuffer& transforms,
                        const glm::mat4& cs_from_ws) const {
     // Images begin anew; what read them in the frame before, Gnomon's passes and the shading, comes first.
@@ -55,10 +62,7 @@ void ScenePass::record(VkCommandBuffer commands, const Targets& targets, const H
     pipeline_.push_constants(commands, std::as_bytes(std::span(&cs_from_ws, 1)));
     pipeline_.push_buffer(commands, 0, transforms.whole());
     pipeline_.push_buffer(commands, 1, colors_.whole());
-    const VkBuffer vertices = vertices_.vk();
-    const VkDeviceSize begin = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &begin);
-    vkCmdBindIndexBuffer(commands, indices_.vk(), 0, VK_INDEX_TYPE_UINT32);
+    bind_meshes(commands);
     for (const Group& group : world_.groups) {
         vkCmdDrawIndexed(commands, group.mesh.index_count, group.count, group.mesh.first_index,
                          static_cast<std::int32_t>(group.mesh.first_vertex), group.first);

@@ -15,6 +15,8 @@ class ScenePass {
     void record(VkCommandBuffer commands, const Targets& targets, const HostBuffer& transforms,
                 const glm::mat4& cs_from_ws) const;
 
+    /// Vertices and indices of all meshes.
+    void bind_meshes(VkCommandBuffer commands) const;
     [[nodiscard]] const HostBuffer& vertices() const { return vertices_; }
     [[nodiscard]] const HostBuffer& indices() const { return indices_; }
 

@@ -57,7 +57,7 @@ GnLight lamp_light() {
 }  // namespace
 
 ShadowPass::ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, const std::string& baked,
-                       VkExtent2D largest)
+                       VkExtent2D largest, bool draw_casters)
     : world_(world), shadows_(create(host, recipe, baked, largest)) {
     for (const Group& group : world.groups) {
         const gn::embed::CasterObject object{group.mesh.first_index, group.mesh.index_count, group.mesh.first_vertex,
@@ -65,33 +65,68 @@ ShadowPass::ShadowPass(const HostDevice& host, const World& world, const std::st
         objects_.insert(objects_.end(), group.count, object);
     }
     objects_.resize(world.casters);  // the lamp's own ball lets its light out
+    if (draw_casters) {
+        casters_.emplace(host, world);
+    }
+    foresee(largest);
+}
+
+gn::embed::Frame ShadowPass::outline(VkExtent2D size, const glm::mat4& cs_from_ws, const Lights& lights) const {
+    return {.receivers = {.width = size.width,
+                          .height = size.height,
+                          .depth = {.format = depth_format},
+                          .normals = {.format = normals_format},
+                          .cs_from_ws = cs_from_ws},
+            .casters = {.bounds_ws = {world_.least_ws, world_.greatest_ws}, .topology = 1},
+            .lights = lights};
+}
+
+void ShadowPass::foresee(VkExtent2D size) const {
+    const Lights lights{
+        {{sun, sun_light(), {.format = visibility_format}}, {lamp, lamp_light(), {.format = visibility_format}}}};
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    gn::embed::Frame frame = outline(size, HostCamera::on_path(0).cs_from_ws(aspect), lights);
+    if (casters_) {
+        frame.casters.draw = [](const gn::CasterView&) {};  // nothing is drawn yet
+    }
+    const auto foreseen = shadows_.foresee(frame);
+    if (!foreseen.ok()) {
+        throw Refused(foreseen.why());
+    }
+    for (const std::string& why : foreseen.value().refused) {
+        if (!why.empty()) {
+            throw Refused(why);
+        }
+    }
+    if (casters_ && foreseen.value().casters.depth != gn::CasterFormats{}.depth) {
+        throw Refused("the casters' pipelines draw another depth than the maps are made of");
+    }
 }
 
 void ShadowPass::record(VkCommandBuffer commands, std::uint32_t slot, std::uint64_t number, const Targets& targets,
                         const ScenePass& scene, const HostBuffer& transforms, const glm::mat4& cs_from_ws) {
-    std::array<gn::embed::LentLight, light_count> lights{{
+    Lights lights{{
         {sun, sun_light(), lend(targets.visibility[sun], VK_IMAGE_LAYOUT_UNDEFINED)},
         {lamp, lamp_light(), lend(targets.visibility[lamp], VK_IMAGE_LAYOUT_UNDEFINED)},
     }};
     if (number % 3 == 2) {
         std::reverse(lights.begin(), lights.end());
     }
-    const auto recorded = shadows_.record(
-        commands, {.slot = slot,
-                   .receivers = {.width = targets.size.width,
-                                 .height = targets.size.height,
-                                 .depth = lend(targets.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL),
-                                 .normals = lend(targets.normals, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL),
-                                 .cs_from_ws = cs_from_ws},
-                   .casters = {.positions = lend(scene.vertices()),
-                               .stride = sizeof(Vertex),
-                               .indices = lend(scene.indices()),
-                               .transforms = lend(transforms),
-                               .objects = objects_,
-                               .bounds_ws = {world_.least_ws, world_.greatest_ws},
-                               .topology = 1,
-                               .poses = number + 1},
-                   .lights = lights});
+    gn::embed::Frame frame = outline(targets.size, cs_from_ws, lights);
+    frame.slot = slot;
+    frame.receivers.depth = lend(targets.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    frame.receivers.normals = lend(targets.normals, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    frame.casters.poses = number + 1;
+    if (casters_) {
+        frame.casters.draw = [&](const gn::CasterView& view) { casters_->draw(view, scene, transforms); };
+    } else {
+        frame.casters.positions = lend(scene.vertices());
+        frame.casters.stride = sizeof(Vertex);
+        frame.casters.indices = lend(scene.indices());
+        frame.casters.transforms = lend(transforms);
+        frame.casters.objects = objects_;
+    }
+    const auto recorded = shadows_.record(commands, frame);
     if (!recorded.ok()) {
         throw std::runtime_error(recorded.why());
     }

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "camera.h"
+#include "caster_pass.h"
 #include "scene_pass.h"
 #include "targets.h"
 
 #include "shadow/embed/embed.h"
 
+#include <array>
+#include <optional>
 #include <stdexcept>
 
 /// Gnomon refused the device or the recipe; what() is its sentence.
@@ -19,7 +22,7 @@ class ShadowPass {
   public:
     /// `baked`: a folder of compiled shaders, or "". Throws Refused.
     ShadowPass(const HostDevice& host, const World& world, const std::string& recipe, const std::string& baked,
-               VkExtent2D largest);
+               VkExtent2D largest, bool draw_casters);
 
     /// Depth and normals are as the scene's pass left them; they and V are left in SHADER_READ_ONLY_OPTIMAL. `number` counts
     /// the frames: in every third the lights come in the other order, which must make no difference. Throws
@@ -33,7 +36,14 @@ class ShadowPass {
     [[nodiscard]] const gn::embed::Shadows& gnomon() const { return shadows_; }
 
   private:
+    using Lights = std::array<gn::embed::LentLight, light_count>;
+    /// All but the images and the buffers.
+    [[nodiscard]] gn::embed::Frame outline(VkExtent2D size, const glm::mat4& cs_from_ws, const Lights& lights) const;
+    /// Asks what frames will want before the first of them. Throws Refused.
+    void foresee(VkExtent2D size) const;
+
     const World& world_;
     gn::embed::Shadows shadows_;
+    std::optional<CasterPass> casters_;  ///< where they are drawn
     std::vector<gn::embed::CasterObject> objects_;
 };

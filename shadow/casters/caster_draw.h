@@ -27,6 +27,7 @@ struct CasterJob {
     std::vector<TextureHandle> masks;  ///< base colour textures of alpha-tested materials
     std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders
     bool translucent = false;          ///< the translucent casters alone, whole, instead of the others
+    std::uint64_t light_id = 0;
 };
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass);
@@ -52,7 +53,13 @@ struct CasterDraw {
     void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void draw_object(Recorder& r, std::uint32_t index) const;
+    void drawn(Recorder& r) const;
 };
+
+/// Where a renderer draws the casters itself: notes what its pipelines must match, or refuses by name what they cannot fill.
+void ask_drawn(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass);
+/// Then draws views one by one, depth alone, and makes of it what else the map stores.
+void add_drawn_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass);
 
 /// One pass that draws into the views: of one view, of all where they are layered, or of one layer's tiles.
 struct ViewPass {

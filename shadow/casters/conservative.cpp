@@ -107,6 +107,11 @@ struct Push {
 
 void add_conservative_passes(const FrameInput& input, const LightViews& views, const ConservativePass& pass) {
     GN_CHECK(views.kind != ViewKind::paraboloid);
+    if (input.handles.drawn != nullptr) {
+        refuse(
+            "pass '{}' asks which texels a triangle touches, which draws of a renderer's own do not tell; lend buffers",
+            pass.name);
+    }
     LightViews drawn = views;
     drawn.layered = false;
     const BufferHandle draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};

@@ -151,6 +151,10 @@ void CasterDraw::draw(Recorder& r, const CasterFaces& faces, std::span<const std
 }
 
 void CasterDraw::record(Recorder& r) const {
+    if (job->handles.drawn != nullptr) {
+        drawn(r);
+        return;
+    }
     constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
     constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
     const std::vector<std::uint32_t> drawn = objects();
@@ -180,6 +184,9 @@ void CasterDraw::record(Recorder& r) const {
 }
 
 void CasterDraw::declare(PassBuilder& builder) const {
+    if (job->handles.drawn != nullptr) {
+        return;
+    }
     builder.vertices(job->handles.positions);
     builder.indices(job->handles.indices);
     builder.storage_read(job->handles.uvs);
@@ -225,10 +232,18 @@ std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recip
     pass.fragment.inputs.hash(hasher);
     job->shader_key = hasher.finish().low;
     job->translucent = input.translucent;
+    job->light_id = input.light_id;
     return job;
 }
 
 void add_caster_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass) {
+    if (input.handles.drawn != nullptr) {
+        ask_drawn(input, recipe, views, pass);
+        if (views.layered || pass.color.valid()) {
+            add_drawn_passes(input, recipe, views, pass);
+            return;
+        }
+    }
     if (!input.translucent && can_keep(input, views, pass)) {
         add_kept_passes(input, recipe, views, pass);
         return;

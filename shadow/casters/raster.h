@@ -18,6 +18,7 @@ struct CasterFragment {
     /// clamped), views[caster_view] and what `inputs` declare, and writes the outputs.
     std::string body;
     ShaderInputs inputs;
+    bool reads_slope = false;  ///< `body` reads slope, which a map's depths alone do not tell
 };
 
 struct CasterPass {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/embed/embed.h"
 
-#include "gpu/baked_shaders.h"
-#include "gpu/frames.h"
 #include "gpu/glsl.h"
 #include "gpu/reload.h"
-#include "shadow/embed/lent_casters.h"
-#include "shadow/embed/lent_images.h"
 #include "shadow/embed/lent_receivers.h"
-#include "shadow/frame/frame.h"
-#include "shadow/frame/history.h"
+#include "shadow/embed/state.h"
 #include "shadow/recipe/check_recipe.h"
 
 namespace gn::embed {
@@ -74,33 +69,13 @@ std::shared_ptr<ShaderCompiler> shaders_for(const Info& info, const std::shared_
 
 }  // namespace
 
-struct Shadows::State {
-    State(const Info& asked, std::shared_ptr<const BakedShaders> found, std::unique_ptr<Device> given)
-        : info(asked),
-          baked(std::move(found)),
-          device(given != nullptr ? std::move(given) : Device::adopt(info.device, shaders_for(info, baked))),
-          frames(*device, info.limits.frames_in_flight),
-          images(*device, frames),
-          casters(*device) {}
-
-    Info info;
-    std::shared_ptr<const BakedShaders> baked;  ///< null: shaders have sources
-    std::unique_ptr<Device> device;
-    std::shared_ptr<const PreparedRecipe> recipe;
-    std::shared_ptr<History> history;
-    std::set<std::string> late_remarks;  ///< answers of frames write it, so that it outlives them
-    Frames frames;
-    LentImages images;
-    LentCasters casters;
-
-    void forget_history();
-    void prepare(const std::string& text);
-    std::vector<std::string> declare(FrameGraph& graph, const Frame& frame);
-    std::vector<std::string> record(VkCommandBuffer commands, const Frame& frame);
-    std::size_t reload();
-    void check(const Frame& frame) const;
-    std::vector<FrameLight> take_lights(const Frame& frame);
-};
+Shadows::State::State(const Info& asked, std::shared_ptr<const BakedShaders> found, std::unique_ptr<Device> given)
+    : info(asked),
+      baked(std::move(found)),
+      device(given != nullptr ? std::move(given) : Device::adopt(info.device, shaders_for(info, baked))),
+      frames(*device, info.limits.frames_in_flight),
+      images(*device, frames),
+      casters(*device) {}
 
 /// Nothing is kept from before; frames in flight still read what was.
 void Shadows::State::forget_history() {
@@ -139,8 +114,9 @@ void Shadows::State::check(const Frame& frame) const {
     }
 }
 
-std::vector<FrameLight> Shadows::State::take_lights(const Frame& frame) {
-    Scene& scene = casters.scene();
+namespace {
+
+std::vector<FrameLight> take_lights(Scene& scene, const Frame& frame) {
     scene.lights.resize(frame.lights.size());
     std::vector<FrameLight> lights;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
@@ -151,45 +127,52 @@ std::vector<FrameLight> Shadows::State::take_lights(const Frame& frame) {
     return lights;
 }
 
-std::vector<std::string> Shadows::State::declare(FrameGraph& graph, const Frame& frame) {
+}  // namespace
+
+Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, const Frame& frame) const {
+    // What the renderer lends.
+    graph.group("lent");
+    const SceneHandles geometry = lenders.casters.add(graph, lenders.frames, frame.casters);
+    const TextureHandle depth =
+        lenders.images.import(graph, "depth", frame.receivers.depth, VK_IMAGE_USAGE_SAMPLED_BIT);
+    const TextureHandle normals =
+        info.receivers.normals != Normals::none
+            ? lenders.images.import(graph, "normals", frame.receivers.normals, VK_IMAGE_USAGE_SAMPLED_BIT)
+            : TextureHandle{};
+    const ViewSamples receivers =
+        add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals, frame.casters.bounds_ws);
+
+    // The shadows.
+    const std::vector<FrameLight> lights = take_lights(lenders.casters.scene(), frame);
+    const std::vector<LightShadow> shadows = add_frame(graph, receivers, {lenders.casters.scene(), geometry}, lights,
+                                                       *recipe, &lenders.history, &lenders.late_remarks);
+
+    // What it gets.
+    graph.group("lent");
+    Foreseen declared;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const TextureHandle target =
+            lenders.images.import(graph, "visibility", frame.lights[i].visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target);
+        declared.refused.push_back(shadows[i].refused);
+    }
+    declared.casters = geometry.drawn != nullptr ? geometry.drawn->formats : CasterFormats{};
+    return declared;
+}
+
+Foreseen Shadows::State::begin(FrameGraph& graph, const Frame& frame) {
     check(frame);
     frames.begin(frame.slot);
     images.begin(frame.receivers.width, frame.receivers.height);
     if (frame.cut) {
         forget_history();
     }
-
-    // What the renderer lends.
-    graph.group("lent");
-    const SceneHandles geometry = casters.add(graph, frames, frame.casters);
-    const TextureHandle depth = images.import(graph, "depth", frame.receivers.depth, VK_IMAGE_USAGE_SAMPLED_BIT);
-    const TextureHandle normals =
-        info.receivers.normals != Normals::none
-            ? images.import(graph, "normals", frame.receivers.normals, VK_IMAGE_USAGE_SAMPLED_BIT)
-            : TextureHandle{};
-    const ViewSamples receivers =
-        add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals, frame.casters.bounds_ws);
-
-    // The shadows.
-    const std::vector<FrameLight> lights = take_lights(frame);
-    const std::vector<LightShadow> shadows =
-        add_frame(graph, receivers, {casters.scene(), geometry}, lights, *recipe, history.get(), &late_remarks);
-
-    // What it gets.
-    graph.group("lent");
-    std::vector<std::string> refused;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const TextureHandle target =
-            images.import(graph, "visibility", frame.lights[i].visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target);
-        refused.push_back(shadows[i].refused);
-    }
-    return refused;
+    return declare(graph, {frames, images, casters, *history, late_remarks}, frame);
 }
 
 std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
     FrameGraph graph(*device);
-    std::vector<std::string> refused = declare(graph, frame);
+    Foreseen declared = begin(graph, frame);
     memory_barrier(commands);
     try {
         graph.record(frames, commands);
@@ -199,7 +182,7 @@ std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const 
     }
     images.give_back(commands);
     history->advance();
-    return refused;
+    return std::move(declared.refused);
 }
 
 std::size_t Shadows::State::reload() {
@@ -276,10 +259,10 @@ Result<std::vector<std::string>> Shadows::rehearse(const Frame& frame,
                                                    const std::function<void(const ShaderSource&)>& found) noexcept {
     return guarded<std::vector<std::string>>([&] {
         FrameGraph graph(*state_->device);
-        std::vector<std::string> refused = state_->declare(graph, frame);
+        Foreseen declared = state_->begin(graph, frame);
         graph.find_shaders(found);
         state_->history->advance();
-        return refused;
+        return std::move(declared.refused);
     });
 }
 

@@ -18,12 +18,14 @@
 
 #include "gpu/device.h"
 #include "gpu/frame_graph.h"
+#include "shadow/casters/drawn.h"
 #include "shadow/embed/result.h"
 #include "shadow/scene/scene.h"
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -80,6 +82,9 @@ struct Receivers {
     /// Vulkan's clip space, y downwards, from the space that casters and lights are given in: perspective (an infinite far
     /// plane is fine) or orthographic, with square pixels, jittered or not.
     mat4 cs_from_ws{1};
+    /// Clip space of the frame before, from this frame's world space. Unset: as that frame said, which is right where the origin
+    /// of the coordinates stays.
+    std::optional<mat4> before_cs_from_ws{};
 };
 
 /// A buffer of the renderer's, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
@@ -96,7 +101,8 @@ struct CasterObject {
     bool single_sided = false;                         ///< casts from its front alone
 };
 
-/// What casts shadows: all objects, at their places of this frame.
+/// What casts shadows: all objects, at their places of this frame. Either the renderer's buffers hold them, or `draw` draws
+/// them into views of the lights that are ready for it; then buffers and objects are not read.
 struct CasterBuffers {
     LentBuffer positions;       ///< three floats at the begin of every `stride` bytes, object space
     std::uint32_t stride = 12;  ///< bytes, a multiple of 4
@@ -109,6 +115,13 @@ struct CasterBuffers {
     std::uint64_t topology = 0;
     /// Another number whenever positions or transforms change: else maps may be kept.
     std::uint64_t poses = 0;
+    /// Boxes in which all that moved since the frame recorded last lay then, and in which it lies now: kept maps are drawn anew
+    /// there alone. Unset: anything may have moved. Not read where poses are what they were.
+    std::optional<std::span<const Box>> moved_ws{};
+    /// Called while record runs, once a view that must be drawn: records into view.commands draws of all that casts, with
+    /// pipelines that match Foreseen::casters. It may bind what it likes, must not end rendering, and what it throws becomes
+    /// record's sentence. Maps that depths alone do not tell, curved views and parts that need geometry refuse it by name.
+    CasterFunction draw{};
 };
 
 struct LentLight {
@@ -127,6 +140,15 @@ struct Frame {
     std::span<const LentLight> lights;
 };
 
+/// What a frame will ask for, known before anything of it is drawn.
+struct Foreseen {
+    std::vector<std::string> refused;   ///< one a light: why it will have no shadow, a sentence or ""
+    CasterFormats casters;              ///< what pipelines of CasterBuffers::draw must match; only where that is given
+    std::vector<PassTime> passes;       ///< in order, without times
+    VkDeviceSize transient_bytes = 0;   ///< memory that all frames of this size and with these lights share
+    VkDeviceSize persistent_bytes = 0;  ///< of what outlives frames: the casters' mesh, kept maps, tables
+};
+
 /// Shadows for one view of one renderer. Not thread-safe.
 class Shadows {
   public:
@@ -143,9 +165,14 @@ class Shadows {
     /// Why the recipe serves no such light: a sentence, or "".
     [[nodiscard]] std::string refuses(const GnLight& light) const noexcept;
 
+    /// What record would do with such a frame: sizes, lights, casters and formats count, images and buffers may be missing.
+    /// Records and keeps nothing, but takes and gives back the frame's memory: for when a recipe is chosen.
+    [[nodiscard]] Result<Foreseen> foresee(const Frame& frame) const noexcept;
+
     /// Records the frame's shadows; commands must not be inside a render pass. All images are left in the layouts that were
     /// asked for; what comes later on the queue sees the results once ALL_COMMANDS of this have finished, for which record
     /// ends with a barrier. Gives, for every light, why it has no shadow, a sentence or "": its image then is 1 everywhere.
+    /// Where it fails, the commands hold a part of the frame and must not be submitted.
     Result<std::vector<std::string>> record(VkCommandBuffer commands, const Frame& frame) noexcept;
 
     /// Before lent images or buffers are destroyed, unless all images change their size: no view of them is kept.

@@ -231,6 +231,44 @@ TEST(Embed, CastersMoveWithTheirTransforms) {
     EXPECT_GT(became_lit, 100U);
 }
 
+TEST(Embed, KeptMapsFollowTheBoxesOfWhatMoved) {
+    const test::ValidationGuard guard;
+    const char* recipe = "hard,resolution=512,placement=cascades,cascades.scroll=1";
+    test::LentRenderer renderer(hard_lit("contact"), 160, 120);
+    Result<Shadows> made = make(recipe);
+    ASSERT_TRUE(made.ok()) << made.why();
+    run(made.value(), renderer.frame());
+    const std::vector<float> before = renderer.visibility(0);
+
+    // All but the floor sinks by half, inside of the bounds.
+    std::vector<mat4> poses(renderer.objects.size(), mat4(1));
+    std::vector<Box> moved;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Box& box = renderer.scene.objects[i].bounds_ws;
+        const vec3 step(0, -0.5F * (box.max.y - box.min.y), 0);
+        if (step.y < -1e-3F) {
+            poses[i] = glm::translate(mat4(1), step);
+            moved.push_back(box);
+            moved.push_back({box.min + step, box.max + step});
+        }
+    }
+    write_buffer(device(), renderer.transforms, std::as_bytes(std::span(poses)));
+    ++renderer.poses;
+    const std::vector<float> after = alone(renderer, recipe, 0);
+    ASSERT_NE(after, before);
+
+    // What is told to have moved is drawn anew, and nothing else.
+    Frame frame = renderer.frame();
+    frame.casters.moved_ws = std::span<const Box>();
+    run(made.value(), frame);
+    EXPECT_EQ(renderer.visibility(0), before);
+    ++renderer.poses;
+    frame = renderer.frame();
+    frame.casters.moved_ws = moved;
+    run(made.value(), frame);
+    EXPECT_EQ(renderer.visibility(0), after);
+}
+
 TEST(Embed, NormalsMayComeFromDepth) {
     const test::ValidationGuard guard;
     test::LentRenderer renderer(hard_lit("stack"), 160, 120);
@@ -270,6 +308,9 @@ TEST(Embed, MistakesAreSentences) {
     frame = renderer.frame();
     frame.receivers.cs_from_ws = mat4(0);
     EXPECT_NE(why(frame).find("matrix"), std::string::npos) << why(frame);
+    frame = renderer.frame();
+    frame.casters.transforms.offset = VkDeviceSize{1} << 33U;
+    EXPECT_NE(why(frame).find("the casters' transforms reach from byte 8589934592"), std::string::npos) << why(frame);
     frame = renderer.frame();
     frame.casters.topology = 2;
     frame.casters.indices.bytes = 12;

@@ -81,6 +81,10 @@ typedef struct GnomonObject {
     bool single_sided;
 } GnomonObject;
 
+typedef struct GnomonBox {
+    float min_ws[3], max_ws[3];
+} GnomonBox;
+
 typedef struct GnomonLight {
     uint64_t id; /* the same in every frame */
     GnomonLightKind kind;
@@ -95,6 +99,20 @@ typedef struct GnomonLight {
     GnomonImage visibility;      /* where V goes */
 } GnomonLight;
 
+/* A view of a light that is ready to be drawn into: one depth attachment of one layer, tested with LESS, depth clamped; viewport
+ * and scissor are set as dynamic state. */
+typedef struct GnomonCasterView {
+    VkCommandBuffer commands;
+    uint64_t light_id;
+    /* gl_Position = cs_from_ws * (p_ws, 1). Where grid is not 0, maps that are kept over frames want x and y rounded before the
+     * matrix's last column is added: (x + grid) - grid. */
+    float cs_from_ws[16];
+    float grid;
+    bool writes_depth; /* gl_FragDepth = clamp(dot(depth_from_ws, (p_ws, 1)), 0, 1) */
+    float depth_from_ws[4];
+} GnomonCasterView;
+typedef void (*GnomonDraw)(void* user, const GnomonCasterView* view);
+
 typedef struct GnomonFrame {
     size_t size;                    /* sizeof(GnomonFrame) */
     size_t object_size, light_size; /* sizeof(GnomonObject), sizeof(GnomonLight) */
@@ -104,6 +122,7 @@ typedef struct GnomonFrame {
     uint32_t width, height; /* of depth, normals and every V */
     GnomonImage depth, normals;
     float cs_from_ws[16];
+    const float* before_cs_from_ws; /* 16 numbers, or NULL: as the frame before said */
 
     GnomonBuffer positions, indices, transforms;
     uint32_t stride; /* bytes from one position to the next */
@@ -112,6 +131,12 @@ typedef struct GnomonFrame {
     const GnomonLight* lights;
     float bounds_min_ws[3], bounds_max_ws[3];
     uint64_t topology, poses;
+    /* Boxes of what moved since the frame recorded last, then and now; NULL: anything may have. */
+    const GnomonBox* moved;
+    uint32_t moved_count;
+    /* Draws the casters instead, into each view that must be drawn; buffers and objects are then not read. NULL: they are. */
+    GnomonDraw draw;
+    void* draw_user;
 } GnomonFrame;
 
 typedef struct GnomonPass {
@@ -119,6 +144,19 @@ typedef struct GnomonPass {
     const char* group;
     double ms;
 } GnomonPass;
+
+/* What a frame will ask for. */
+typedef struct GnomonForeseen {
+    size_t size; /* sizeof(GnomonForeseen) */
+    /* What pipelines of GnomonFrame::draw must match, where that is given: no colour, no stencil. */
+    VkFormat depth;
+    VkSampleCountFlagBits samples;
+    VkCullModeFlags culled; /* with VK_FRONT_FACE_COUNTER_CLOCKWISE for the front */
+    bool affine, bent;      /* there are views without and with writes_depth */
+    uint64_t transient_bytes, persistent_bytes;
+    uint32_t pass_count;
+    const GnomonPass* passes; /* without times; they stay until the next gnomon_foresee */
+} GnomonForeseen;
 
 /* Objects that the device was asked for since the shadows were created. */
 typedef struct GnomonCounters {
@@ -133,6 +171,11 @@ void gnomon_destroy(GnomonShadows* shadows);
  * next gnomon_record. */
 const char* gnomon_record(GnomonShadows* shadows, VkCommandBuffer commands, const GnomonFrame* frame,
                           const char** refused);
+
+/* What gnomon_record would do with such a frame, of which images and buffers may be missing. `refused` as there; its sentences
+ * stay until the next gnomon_foresee. */
+const char* gnomon_foresee(GnomonShadows* shadows, const GnomonFrame* frame, GnomonForeseen* foreseen,
+                           const char** refused);
 
 /* Why the recipe serves no such light, or NULL. */
 const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* light);

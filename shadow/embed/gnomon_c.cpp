@@ -14,6 +14,8 @@ struct GnomonShadows {
     std::vector<std::string> refused;
     GraphStatistics completed;
     std::vector<GnomonPass> passes;
+    Foreseen foreseen;
+    std::vector<GnomonPass> foreseen_passes;
 };
 
 namespace {
@@ -115,7 +117,30 @@ Info info_of(const GnomonInfo& c) {
     return info;
 }
 
-CasterBuffers casters_of(const GnomonFrame& c, std::span<const CasterObject> objects) {
+std::vector<Box> moved_of(const GnomonFrame& c) {
+    std::vector<Box> moved;
+    for (std::uint32_t i = 0; c.moved != nullptr && i < c.moved_count; ++i) {
+        moved.push_back({vec3(vector_of(c.moved[i].min_ws)), vec3(vector_of(c.moved[i].max_ws))});
+    }
+    return moved;
+}
+
+CasterFunction draw_of(const GnomonFrame& c) {
+    if (c.draw == nullptr) {
+        return {};
+    }
+    return [draw = c.draw, user = c.draw_user](const CasterView& view) {
+        GnomonCasterView given{.commands = view.commands,
+                               .light_id = view.light_id,
+                               .grid = view.view.grid,
+                               .writes_depth = view.writes_depth};
+        std::copy_n(glm::value_ptr(view.view.cs_from_ws), 16, given.cs_from_ws);
+        std::copy_n(glm::value_ptr(view.view.depth_from_ws), 4, given.depth_from_ws);
+        draw(user, &given);
+    };
+}
+
+CasterBuffers casters_of(const GnomonFrame& c, std::span<const CasterObject> objects, std::span<const Box> moved) {
     return {.positions = buffer_of(c.positions),
             .stride = c.stride,
             .indices = buffer_of(c.indices),
@@ -123,10 +148,18 @@ CasterBuffers casters_of(const GnomonFrame& c, std::span<const CasterObject> obj
             .objects = objects,
             .bounds_ws = {vec3(vector_of(c.bounds_min_ws)), vec3(vector_of(c.bounds_max_ws))},
             .topology = c.topology,
-            .poses = c.poses};
+            .poses = c.poses,
+            .moved_ws = c.moved != nullptr ? std::optional(moved) : std::nullopt,
+            .draw = draw_of(c)};
 }
 
-void record(GnomonShadows& self, VkCommandBuffer commands, const GnomonFrame& c) {
+std::optional<mat4> before_of(const GnomonFrame& c) {
+    return c.before_cs_from_ws != nullptr ? std::optional(glm::make_mat4(c.before_cs_from_ws)) : std::nullopt;
+}
+
+/// Hands the frame, as C++ has it, to `use`.
+template <class Use>
+void with_frame(const GnomonFrame& c, Use&& use) {
     demand_size("GnomonFrame", c.size, sizeof(GnomonFrame));
     demand_size("GnomonObject", c.object_size, sizeof(GnomonObject));
     demand_size("GnomonLight", c.light_size, sizeof(GnomonLight));
@@ -136,24 +169,46 @@ void record(GnomonShadows& self, VkCommandBuffer commands, const GnomonFrame& c)
         const GnomonObject& o = element(c.objects, i, "objects");
         objects.push_back({o.first_index, o.index_count, o.first_vertex, o.vertex_count, o.single_sided});
     }
+    const std::vector<Box> moved = moved_of(c);
     std::vector<LentLight> lights;
     for (std::uint32_t i = 0; i < c.light_count; ++i) {
         const GnomonLight& light = element(c.lights, i, "lights");
         lights.push_back({.id = light.id, .shape = shape_of(light), .visibility = image_of(light.visibility)});
     }
-    auto recorded = self.shadows.record(commands, {.slot = c.slot,
-                                                   .cut = c.cut,
-                                                   .receivers = {.width = c.width,
-                                                                 .height = c.height,
-                                                                 .depth = image_of(c.depth),
-                                                                 .normals = image_of(c.normals),
-                                                                 .cs_from_ws = glm::make_mat4(c.cs_from_ws)},
-                                                   .casters = casters_of(c, objects),
-                                                   .lights = lights});
-    if (!recorded.ok()) {
-        throw Error(recorded.why());
+    use(Frame{.slot = c.slot,
+              .cut = c.cut,
+              .receivers = {.width = c.width,
+                            .height = c.height,
+                            .depth = image_of(c.depth),
+                            .normals = image_of(c.normals),
+                            .cs_from_ws = glm::make_mat4(c.cs_from_ws),
+                            .before_cs_from_ws = before_of(c)},
+              .casters = casters_of(c, objects, moved),
+              .lights = lights});
+}
+
+/// The value of a result. Throws Error with its sentence.
+template <class T>
+T value_of(Result<T> result) {
+    if (!result.ok()) {
+        throw Error(result.why());
     }
-    self.refused = std::move(recorded.value());
+    return std::move(result.value());
+}
+
+/// Where the caller asks, why each light is refused.
+void tell(const std::vector<std::string>& refused, const char** told) {
+    for (std::size_t i = 0; told != nullptr && i < refused.size(); ++i) {
+        told[i] = refused[i].empty() ? nullptr : refused[i].c_str();
+    }
+}
+
+std::vector<GnomonPass> passes_of(const std::vector<PassTime>& passes) {
+    std::vector<GnomonPass> c;
+    for (const PassTime& pass : passes) {
+        c.push_back({pass.name.c_str(), pass.group.c_str(), pass.ms});
+    }
+    return c;
 }
 
 }  // namespace
@@ -164,11 +219,7 @@ const char* gnomon_create(const GnomonInfo* info, GnomonShadows** shadows) {
         if (shadows == nullptr) {
             fail("shadows is NULL, and must say where the shadows go");
         }
-        auto created = Shadows::create(info_of(*info));
-        if (!created.ok()) {
-            throw Error(created.why());
-        }
-        *shadows = new GnomonShadows{std::move(created.value()), {}, {}, {}};
+        *shadows = new GnomonShadows{value_of(Shadows::create(info_of(*info))), {}, {}, {}, {}, {}};
     });
 }
 
@@ -180,10 +231,32 @@ const char* gnomon_record(GnomonShadows* shadows, VkCommandBuffer commands, cons
                           const char** refused) {
     return sentence_of([&] {
         given(shadows, "shadows");
-        record(*shadows, commands, given(frame, "frame"));
-        for (std::size_t i = 0; refused != nullptr && i < shadows->refused.size(); ++i) {
-            refused[i] = shadows->refused[i].empty() ? nullptr : shadows->refused[i].c_str();
-        }
+        with_frame(given(frame, "frame"),
+                   [&](const Frame& f) { shadows->refused = value_of(shadows->shadows.record(commands, f)); });
+        tell(shadows->refused, refused);
+    });
+}
+
+const char* gnomon_foresee(GnomonShadows* shadows, const GnomonFrame* frame, GnomonForeseen* foreseen,
+                           const char** refused) {
+    return sentence_of([&] {
+        given(shadows, "shadows");
+        demand_size("GnomonForeseen", given(foreseen, "foreseen").size, sizeof(GnomonForeseen));
+        with_frame(given(frame, "frame"),
+                   [&](const Frame& f) { shadows->foreseen = value_of(shadows->shadows.foresee(f)); });
+        const Foreseen& told = shadows->foreseen;
+        shadows->foreseen_passes = passes_of(told.passes);
+        *foreseen = {.size = sizeof(GnomonForeseen),
+                     .depth = told.casters.depth,
+                     .samples = told.casters.samples,
+                     .culled = told.casters.culled,
+                     .affine = told.casters.affine,
+                     .bent = told.casters.bent,
+                     .transient_bytes = told.transient_bytes,
+                     .persistent_bytes = told.persistent_bytes,
+                     .pass_count = static_cast<uint32_t>(shadows->foreseen_passes.size()),
+                     .passes = shadows->foreseen_passes.data()};
+        tell(told.refused, refused);
     });
 }
 
@@ -199,10 +272,7 @@ const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* ligh
 const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe) {
     return sentence_of([&] {
         given(shadows, "shadows");
-        const Result<Done> done = shadows->shadows.set_recipe(&given(recipe, "the recipe"));
-        if (!done.ok()) {
-            throw Error(done.why());
-        }
+        value_of(shadows->shadows.set_recipe(&given(recipe, "the recipe")));
     });
 }
 
@@ -227,9 +297,7 @@ uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPas
     shadows->passes.clear();
     const Result<Done> done = guarded<Done>([&] {
         shadows->completed = shadows->shadows.completed(slot);
-        for (const PassTime& pass : shadows->completed.passes) {
-            shadows->passes.push_back({pass.name.c_str(), pass.group.c_str(), pass.ms});
-        }
+        shadows->passes = passes_of(shadows->completed.passes);
         return Done{};
     });
     *passes = shadows->passes.data();

@@ -2,7 +2,7 @@
 // The C header gives what the C++ one gives, and sentences for mistakes.
 #include "shadow/embed/gnomon.h"
 
-#include "tests/lent_renderer.h"
+#include "tests/own_draws.h"
 
 namespace gn::embed {
 namespace {
@@ -50,6 +50,7 @@ void copy(const vec4& from, float (&to)[3]) {
 struct FrameInC {
     std::vector<GnomonObject> objects;
     std::vector<GnomonLight> lights;
+    std::vector<GnomonBox> moved;
     GnomonFrame frame{};
 
     explicit FrameInC(const Frame& from) {
@@ -73,6 +74,11 @@ struct FrameInC {
             copy(shape.up_ws, light.up_ws);
             lights.push_back(light);
         }
+        for (const Box& box : from.casters.moved_ws.value_or(std::span<const Box>())) {
+            moved.emplace_back();
+            copy(vec4(box.min, 0), moved.back().min_ws);
+            copy(vec4(box.max, 0), moved.back().max_ws);
+        }
         frame = {.size = sizeof(GnomonFrame),
                  .object_size = sizeof(GnomonObject),
                  .light_size = sizeof(GnomonLight),
@@ -91,7 +97,9 @@ struct FrameInC {
                  .objects = objects.data(),
                  .lights = lights.data(),
                  .topology = from.casters.topology,
-                 .poses = from.casters.poses};
+                 .poses = from.casters.poses,
+                 .moved = from.casters.moved_ws ? moved.data() : nullptr,
+                 .moved_count = static_cast<uint32_t>(moved.size())};
         std::copy_n(&from.receivers.cs_from_ws[0].x, 16, frame.cs_from_ws);
         copy(vec4(from.casters.bounds_ws.min, 0), frame.bounds_min_ws);
         copy(vec4(from.casters.bounds_ws.max, 0), frame.bounds_max_ws);
@@ -149,6 +157,47 @@ TEST(GnomonC, GivesTheImagesOfTheBoundary) {
     ASSERT_GT(gnomon_completed(shadows.get(), 0, &passes), 5U);
     EXPECT_NE(text(passes[0].name), "");
     EXPECT_GT(gnomon_counters(shadows.get()).pipelines, 0U);
+}
+
+/// OwnDraws behind a pointer.
+void draw(void* user, const GnomonCasterView* view) {
+    CasterView cpp{.commands = view->commands, .light_id = view->light_id, .writes_depth = view->writes_depth};
+    std::copy_n(view->cs_from_ws, 16, &cpp.view.cs_from_ws[0].x);
+    std::copy_n(view->depth_from_ws, 4, &cpp.view.depth_from_ws.x);
+    cpp.view.grid = view->grid;
+    (*static_cast<test::OwnDraws*>(user))(cpp);
+}
+
+TEST(GnomonC, DrawsOfARenderersOwnGiveTheSame) {
+    const test::ValidationGuard guard;
+    const char* recipe = "hard,resolution=256,placement=cascades,cascades.scroll=1";
+    test::LentRenderer renderer(load_scene("courtyard"), 96, 54);
+    const auto by_buffers = create(recipe), by_draws = create(recipe);
+    ASSERT_TRUE(by_buffers != nullptr && by_draws != nullptr);
+    EXPECT_EQ(record(by_buffers.get(), FrameInC(renderer.frame()).frame, nullptr), "");
+    std::vector<std::vector<float>> expected;
+    for (std::size_t i = 0; i < renderer.scene.lights.size(); ++i) {
+        expected.push_back(renderer.visibility(i));
+    }
+    test::OwnDraws draws(renderer);
+    FrameInC in_c(renderer.frame());
+    in_c.frame.positions = in_c.frame.indices = in_c.frame.transforms = {};
+    in_c.frame.object_count = 0;
+    in_c.frame.draw = draw;
+    in_c.frame.draw_user = &draws;
+    GnomonForeseen foreseen{.size = sizeof(GnomonForeseen)};
+    EXPECT_EQ(text(gnomon_foresee(by_draws.get(), &in_c.frame, &foreseen, nullptr)), "");
+    EXPECT_EQ(foreseen.depth, VK_FORMAT_D32_SFLOAT);
+    EXPECT_TRUE(foreseen.affine && foreseen.bent);
+    EXPECT_GT(foreseen.pass_count, 5U);
+    EXPECT_GT(foreseen.transient_bytes, 0U);
+    EXPECT_EQ(record(by_draws.get(), in_c.frame, nullptr), "");
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(renderer.visibility(i), expected[i]) << i;
+    }
+    foreseen.size = 1;
+    EXPECT_NE(text(gnomon_foresee(by_draws.get(), &in_c.frame, &foreseen, nullptr)).find("GnomonForeseen"),
+              std::string::npos);
 }
 
 TEST(GnomonC, MistakesAreSentences) {

@@ -2,6 +2,7 @@
 #include "shadow/embed/lent_casters.h"
 
 #include "gpu/shader_inputs.h"
+#include "shadow/embed/lent_images.h"
 
 namespace gn::embed {
 namespace {
@@ -70,15 +71,6 @@ void main() {
 }
 )";
 
-Buffer borrow(const char* name, const LentBuffer& lent) {
-    if (lent.buffer == VK_NULL_HANDLE || lent.offset % 4 != 0) {
-        fail("the casters' {} are {}; give a buffer and an offset in whole words", name,
-             lent.buffer == VK_NULL_HANDLE ? "no buffer" : fmt::format("at byte {}", lent.offset));
-    }
-    return Buffer::borrow(
-        {.name = name, .bytes = lent.offset + lent.bytes, .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}, lent.buffer);
-}
-
 void check_ranges(const CasterBuffers& casters) {
     if (casters.stride < 12 || casters.stride % 4 != 0) {
         fail("the casters' positions are {} bytes apart; a multiple of 4, 12 or more, is needed", casters.stride);
@@ -104,13 +96,21 @@ void check_ranges(const CasterBuffers& casters) {
 
 /// What may change in every frame.
 void check_poses(const CasterBuffers& casters) {
-    if (casters.objects.size() * sizeof(mat4) > casters.transforms.bytes) {
+    if (!casters.draw && casters.objects.size() * sizeof(mat4) > casters.transforms.bytes) {
         fail("the casters' transforms are {} bytes; {} objects need {}", casters.transforms.bytes,
              casters.objects.size(), casters.objects.size() * sizeof(mat4));
     }
     if (casters.bounds_ws.empty()) {
         fail("the casters' bounds are empty; give a box around all objects and all that the camera sees");
     }
+}
+
+/// The boxes of what moved since the frame before; unset where anything may have.
+std::optional<std::vector<Box>> moved_of(const CasterBuffers& casters, bool rebuilt) {
+    if (rebuilt || !casters.moved_ws) {
+        return {};
+    }
+    return std::vector<Box>(casters.moved_ws->begin(), casters.moved_ws->end());
 }
 
 /// Where lent buffers begin, in words; positions and indices are never read by one pass.
@@ -136,22 +136,48 @@ void dispatch_over(Recorder& r, std::uint32_t count, std::uint32_t objects, cons
 }  // namespace
 
 LentCasters::LentCasters(Device& device)
-    : device_(device),
-      empty_(device, {.name = "no attributes", .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}),
-      white_(upload_texture(device,
-                            {.name = "white", .format = VK_FORMAT_R8G8B8A8_SRGB, .usage = VK_IMAGE_USAGE_SAMPLED_BIT},
-                            std::as_bytes(std::span(&opaque_white, 1)))) {
+    : LentCasters(device,
+                  std::make_shared<Buffer>(
+                      device, BufferDesc{.name = "no attributes", .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}),
+                  std::make_shared<Texture2D>(upload_texture(
+                      device, {.name = "white", .format = VK_FORMAT_R8G8B8A8_SRGB, .usage = VK_IMAGE_USAGE_SAMPLED_BIT},
+                      std::as_bytes(std::span(&opaque_white, 1)))),
+                  false) {}
+
+LentCasters LentCasters::twin() const {
+    return {device_, empty_, white_, true};
+}
+
+LentCasters::LentCasters(Device& device, std::shared_ptr<Buffer> empty, std::shared_ptr<Texture2D> white, bool foreseen)
+    : device_(device), empty_(std::move(empty)), white_(std::move(white)), foreseen_(foreseen) {
     scene_.name = "lent";
     scene_.materials = {Material{.name = "both sides"}, Material{.name = "one side", .double_sided = false}};
 }
 
-void LentCasters::rebuild(Frames& frames, const CasterBuffers& casters) {
+std::shared_ptr<Buffer> LentCasters::borrow(const char* name, const LentBuffer& lent) const {
+    const bool missing = lent.buffer == VK_NULL_HANDLE && !foreseen_;
+    if (missing || lent.offset % 4 != 0) {
+        fail("the casters' {} are {}; give a buffer and an offset in whole words", name,
+             missing ? "no buffer" : fmt::format("at byte {}", lent.offset));
+    }
+    const VkDeviceSize most = device_.properties().limits.maxStorageBufferRange;
+    if (lent.bytes > most || lent.offset > most - lent.bytes) {
+        fail("the casters' {} reach from byte {} over {} bytes; device '{}' lets shaders read the first {} of a buffer",
+             name, lent.offset, lent.bytes, device_.info().name, most);
+    }
+    return std::make_shared<Buffer>(Buffer::borrow({.name = fmt::format("{}{}", lent_mark, name),
+                                                    .bytes = lent.offset + lent.bytes,
+                                                    .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
+                                                   lent.buffer));
+}
+
+void LentCasters::rebuild(Frames& frames, std::span<const CasterObject> objects) {
     // Objects lie behind each other; runs of the same sidedness are drawn as one.
     std::vector<LentObject> table;
     scene_.objects.clear();
     vertices_ = index_count_ = 0;
-    for (std::size_t i = 0; i < casters.objects.size(); ++i) {
-        const CasterObject& o = casters.objects[i];
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const CasterObject& o = objects[i];
         if (o.index_count == 0 || o.vertex_count == 0) {
             continue;
         }
@@ -173,21 +199,28 @@ void LentCasters::rebuild(Frames& frames, const CasterBuffers& casters) {
     frames.retire(indices_);
     constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     positions_ =
-        std::make_shared<Buffer>(device_, BufferDesc{.name = "lent positions",
+        std::make_shared<Buffer>(device_, BufferDesc{.name = "casters' positions",
                                                      .bytes = std::max<VkDeviceSize>(vertices_, 1) * sizeof(vec3),
                                                      .usage = storage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT});
-    indices_ = std::make_shared<Buffer>(device_, BufferDesc{.name = "lent indices",
+    indices_ = std::make_shared<Buffer>(device_, BufferDesc{.name = "casters' indices",
                                                             .bytes = std::max<VkDeviceSize>(index_count_, 3) * 4,
                                                             .usage = storage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
-    topology_ = casters.topology;
     poses_.reset();
 }
 
 SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuffers& casters) {
-    const bool rebuilt = topology_ != casters.topology;
+    const bool drawn = static_cast<bool>(casters.draw);
+    const bool rebuilt = topology_ != casters.topology || drawn_ != drawn;
     if (rebuilt) {
-        check_ranges(casters);
-        rebuild(frames, casters);
+        if (!drawn) {
+            check_ranges(casters);
+        }
+        rebuild(frames, drawn ? std::span<const CasterObject>() : casters.objects);
+        topology_ = casters.topology;
+        drawn_ = drawn;
+    }
+    if (drawn && scene_.objects.empty()) {
+        scene_.objects.push_back({.name = "drawn"});
     }
     check_poses(casters);
     const bool moved = poses_ != casters.poses;
@@ -214,7 +247,7 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
     };
     if (rebuilt && index_count_ > 0) {
         ShaderInputs inputs;
-        const auto lent = std::make_shared<Buffer>(borrow("indices", casters.indices));
+        const auto lent = borrow("indices", casters.indices);
         graph.hold(lent);
         inputs.buffer("readonly buffer", "LentIndices", "uint lent_indices[];", graph.import(*lent));
         inputs.buffer("writeonly buffer", "Indices", "uint indices[];", indices);
@@ -222,8 +255,8 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
     }
     if (moved && vertices_ > 0) {
         ShaderInputs inputs;
-        const auto lent = std::make_shared<Buffer>(borrow("positions", casters.positions));
-        const auto poses = std::make_shared<Buffer>(borrow("transforms", casters.transforms));
+        const auto lent = borrow("positions", casters.positions);
+        const auto poses = borrow("transforms", casters.transforms);
         graph.hold(lent);
         graph.hold(poses);
         inputs.buffer("readonly buffer", "LentPositions", "float positions_os[];", graph.import(*lent));
@@ -235,18 +268,22 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
                   .first_transform = word_of(casters.transforms.offset)});
     }
     if (moved) {
+        const std::uint64_t before = version_;
         poses_ = casters.poses;
         version_ = next_version();
+        moves_->add(before, version_, moved_of(casters, rebuilt));
     }
 
     SceneHandles handles{.positions = positions,
-                         .normals = graph.import(empty_),
-                         .uvs = graph.import(empty_),
-                         .colors = graph.import(empty_),
+                         .normals = graph.import(*empty_),
+                         .uvs = graph.import(*empty_),
+                         .colors = graph.import(*empty_),
                          .indices = indices};
-    handles.white = graph.import(white_);
+    handles.white = graph.import(*white_);
     handles.version = version_;
     handles.derived = derived_;
+    handles.moves = moves_;
+    handles.drawn = drawn ? std::make_shared<DrawnCasters>(DrawnCasters{casters.draw, {}}) : nullptr;
     return handles;
 }
 

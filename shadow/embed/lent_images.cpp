@@ -30,15 +30,19 @@ void LentImages::begin(uint width, uint height) {
 }
 
 TextureHandle LentImages::import(FrameGraph& graph, const char* name, const LentImage& lent, VkImageUsageFlags usage) {
-    if (lent.image == VK_NULL_HANDLE || lent.format == VK_FORMAT_UNDEFINED) {
-        fail("the frame's image of {} has no {}; lend an image with its format", name,
-             lent.image == VK_NULL_HANDLE ? "handle" : "format");
+    const bool missing = lent.image == VK_NULL_HANDLE && !foreseen_;
+    if (missing || lent.format == VK_FORMAT_UNDEFINED) {
+        fail("the frame's image of {} has no {}; lend an image with its format", name, missing ? "handle" : "format");
     }
-    Kept& kept = kept_[{lent.image, lent.format}];
+    Kept& kept = kept_[{lent.image, lent.format, foreseen_ ? kept_.size() : 0}];
     if (kept.texture == nullptr) {
-        kept.texture = std::make_shared<Texture2D>(Texture2D::borrow(
-            device_, {.name = name, .format = lent.format, .width = width_, .height = height_, .usage = usage},
-            lent.image, lent.before));
+        kept.texture = std::make_shared<Texture2D>(Texture2D::borrow(device_,
+                                                                     {.name = fmt::format("{}{}", lent_mark, name),
+                                                                      .format = lent.format,
+                                                                      .width = width_,
+                                                                      .height = height_,
+                                                                      .usage = usage},
+                                                                     lent.image, lent.before));
     }
     kept.texture->layouts.assign(1, lent.before);
     kept.last_used = frame_;

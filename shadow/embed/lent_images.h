@@ -6,12 +6,18 @@
 #include "shadow/embed/embed.h"
 
 #include <map>
+#include <tuple>
 
 namespace gn::embed {
 
+/// Stands before the names of all that is the renderer's.
+inline constexpr std::string_view lent_mark = "lent ";
+
 class LentImages {
   public:
-    LentImages(Device& device, Frames& frames) : device_(device), frames_(frames) {}
+    /// foreseen: no commands will be recorded, and images may be missing.
+    LentImages(Device& device, Frames& frames, bool foreseen = false)
+        : device_(device), frames_(frames), foreseen_(foreseen) {}
 
     /// A new frame of images of this size. Views of another size are given up, and of images that were not lent for longer than
     /// frames are in flight.
@@ -29,12 +35,14 @@ class LentImages {
         std::shared_ptr<Texture2D> texture;
         std::uint64_t last_used = 0;
     };
-    using Key = std::pair<VkImage, VkFormat>;
+    /// The last tells images apart that are all missing.
+    using Key = std::tuple<VkImage, VkFormat, std::size_t>;
 
     void drop(std::map<Key, Kept>::iterator& entry);
 
     Device& device_;
     Frames& frames_;
+    bool foreseen_;
     std::map<Key, Kept> kept_;
     std::vector<std::pair<std::shared_ptr<Texture2D>, VkImageLayout>> used_;
     uint width_ = 0, height_ = 0;

@@ -115,6 +115,7 @@ ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, cons
     };
     const TextureHandle position = create("position"), normal = create("normal");
     ViewSamples samples = lent_samples(graph, camera.camera, position, normal);
+    samples.before_cs_from_ws = lent.before_cs_from_ws;
 
     ShaderInputs inputs;
     inputs.texture("sampler2D", "lent_depth", depth);

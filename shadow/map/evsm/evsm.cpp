@@ -35,6 +35,7 @@ layout(location = 0) out vec4 out_moments;
     moments.fragment.body = R"(
     out_moments = gn_evsm_encode(depth, u.params.slope_moment != 0 ? slope : vec2(0.0), u.params);
 )";
+    moments.fragment.reads_slope = params.slope_moment != 0;
     moments.fragment.inputs.constant("GnEvsmParams", "params", params);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 

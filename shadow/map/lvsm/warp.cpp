@@ -63,6 +63,7 @@ TextureHandle add_depths(const FrameInput& input, const Recipe& recipe, const Li
     fragment.includes = "#include \"shadow/map/vsm/vsm.glsl\"\nlayout(location = 0) out vec4 out_moments;\n";
     fragment.body = params.slope_moment != 0 ? "out_moments = vec4(depth, gn_vsm_spread(slope.x, slope.y), 0, 0);"
                                              : "out_moments = vec4(depth, 0, 0, 0);";
+    fragment.reads_slope = params.slope_moment != 0;
     const TextureHandle target = input.graph.create(color);
     add_caster_passes(input, recipe, views,
                       {.color = target,

@@ -22,6 +22,7 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     moments.fragment.body = params.slope_moment != 0
                                 ? "out_moments = vec4(gn_vsm_moments(depth, gn_vsm_spread(slope.x, slope.y)), 0, 0);"
                                 : "out_moments = vec4(gn_vsm_moments(depth, 0.0), 0, 0);";
+    moments.fragment.reads_slope = params.slope_moment != 0;
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
