@@ -22,13 +22,13 @@ sys.dont_write_bytecode = True
 from embed_pictures import clearing_pictures, compare, read_pgm, read_png, wall_picture  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# What Gnomon uses where it is enabled: each is left out alone, then all at once with what only widens its shaders' words.
-OPTIONAL = ("samplerAnisotropy", "shaderOutputLayer", "shaderFloat64", "multiDrawIndirect", "drawIndirectFirstInstance")
-WIDENING = ("shaderStorageImageReadWithoutFormat", "shaderStorageImageExtendedFormats", "shaderImageGatherExtended",
-            "samplerFilterMinmax", "hostQueryReset", "shaderDemoteToHelperInvocation",
-            "shaderDrawParameters")
+# What Gnomon uses where it is enabled: the renderer goes without any of it, with all, and with all but each.
+OPTIONAL = ("samplerAnisotropy", "shaderOutputLayer", "shaderFloat64", "multiDrawIndirect", "drawIndirectFirstInstance",
+            "shaderBufferFloat32AtomicAdd", "fragmentShaderPixelInterlock")
 REQUIRED = ("dynamicRendering", "synchronization2", "maintenance4", "scalarBlockLayout", "geometryShader", "depthClamp",
-            "shaderClipDistance", "independentBlend", "imageCubeArray")
+            "independentBlend", "logicOp", "sampleRateShading", "imageCubeArray", "fragmentStoresAndAtomics",
+            "vertexPipelineStoresAndAtomics", "shaderStorageImageWriteWithoutFormat", "shaderClipDistance",
+            "VK_KHR_push_descriptor")
 SIZE = (192, 108)
 
 
@@ -141,12 +141,12 @@ class BakedRenderer(Renderer):
         super().__init__(folder, {**environment, "GNOMON_DATA": str(folder / "no-such-folder")})
         self.baked = ("--baked", folder / "build" / "embed" / "baked")
 
-    def checks(self, compiled, everything):
-        """`compiled`: the pictures of embed. `everything`: features to go without."""
+    def checks(self, compiled):
+        """`compiled`: the pictures of embed."""
         self.holds(*self.baked)
         if self.pictures() != compiled:
             sys.exit("embed_baked draws other pictures than embed")
-        self.holds(*self.baked, *(word for feature in everything for word in ("--without", feature)))
+        self.holds(*self.baked, "--with", "all")
         self.refuses("gnomon bake")
         self.refuses("gnomon bake pcf,placement=cascades hard -o", *self.baked, "--recipe", "hard")
         self.refuses("gnomon bake pcf,placement=cascades pcf,placement=lispsm -o", *self.baked,
@@ -166,15 +166,17 @@ def main():
 
     renderer = Renderer(folder, environment)
     print(renderer.holds().strip())
-    BakedRenderer(folder, environment).checks(renderer.pictures(), OPTIONAL + WIDENING)
+    BakedRenderer(folder, environment).checks(renderer.pictures())
+    renderer.holds("--with", "all")
     for feature in OPTIONAL:
-        renderer.holds("--without", feature)
-    renderer.holds(*(word for feature in OPTIONAL + WIDENING for word in ("--without", feature)))
+        renderer.holds("--with", "all", "--without", feature)
+    renderer.holds("--draw-casters")
+    renderer.refuses("map 'vsm'", "--draw-casters", "--recipe", "vsm")
     for feature in REQUIRED:
         renderer.refuses(feature, "--without", feature)
     renderer.refuses("'volumes'", "--recipe", "volumes")
     renderer.refuses("samplerAnisotropy", "--without", "flying", status=1)
-    print(f"the same without {len(OPTIONAL + WIDENING)} features; refused without each of {len(REQUIRED)}")
+    print(f"the same without {len(OPTIONAL)} features; refused without each of {len(REQUIRED)}")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 
 #include "check.h"
 
-#include <map>
+#include <algorithm>
+#include <cstring>
 
 namespace {
 
@@ -38,30 +39,67 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, V
     return VK_FALSE;
 }
 
-/// Features that can be left out by name: those that Gnomon requires, then those that it uses where they are enabled.
-std::map<std::string, VkBool32*> features_by_name(HostDevice& host) {
+/// A feature that Gnomon needs, or uses where it is enabled.
+struct Feature {
+    const char* name;
+    VkBool32* enabled;
+    bool needed = false;
+    const char* extension = nullptr;  ///< that it comes with; null: it is of Vulkan's own
+};
+
+std::vector<Feature> features_of(HostDevice& host) {
     VkPhysicalDeviceFeatures& core = host.features.features;
-    return {{"dynamicRendering", &host.features_13.dynamicRendering},
-            {"synchronization2", &host.features_13.synchronization2},
-            {"maintenance4", &host.features_13.maintenance4},
-            {"scalarBlockLayout", &host.features_12.scalarBlockLayout},
-            {"geometryShader", &core.geometryShader},
-            {"depthClamp", &core.depthClamp},
-            {"independentBlend", &core.independentBlend},
-            {"imageCubeArray", &core.imageCubeArray},
+    VkPhysicalDeviceVulkan12Features& v12 = host.features_12;
+    VkPhysicalDeviceVulkan13Features& v13 = host.features_13;
+    constexpr bool needed = true;
+    const char* atomics = VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME;
+    const char* interlock = VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME;
+    return {{"dynamicRendering", &v13.dynamicRendering, needed},
+            {"synchronization2", &v13.synchronization2, needed},
+            {"maintenance4", &v13.maintenance4, needed},
+            {"scalarBlockLayout", &v12.scalarBlockLayout, needed},
+            {"geometryShader", &core.geometryShader, needed},
+            {"depthClamp", &core.depthClamp, needed},
+            {"independentBlend", &core.independentBlend, needed},
+            {"logicOp", &core.logicOp, needed},
+            {"sampleRateShading", &core.sampleRateShading, needed},
+            {"imageCubeArray", &core.imageCubeArray, needed},
+            {"fragmentStoresAndAtomics", &core.fragmentStoresAndAtomics, needed},
+            {"vertexPipelineStoresAndAtomics", &core.vertexPipelineStoresAndAtomics, needed},
+            {"shaderStorageImageWriteWithoutFormat", &core.shaderStorageImageWriteWithoutFormat, needed},
+            {"shaderClipDistance", &core.shaderClipDistance, needed},
             {"samplerAnisotropy", &core.samplerAnisotropy},
             {"shaderFloat64", &core.shaderFloat64},
-            {"shaderOutputLayer", &host.features_12.shaderOutputLayer},
+            {"shaderOutputLayer", &v12.shaderOutputLayer},
             {"multiDrawIndirect", &core.multiDrawIndirect},
             {"drawIndirectFirstInstance", &core.drawIndirectFirstInstance},
             {"shaderDrawParameters", &host.features_11.shaderDrawParameters},
             {"shaderStorageImageReadWithoutFormat", &core.shaderStorageImageReadWithoutFormat},
             {"shaderStorageImageExtendedFormats", &core.shaderStorageImageExtendedFormats},
             {"shaderImageGatherExtended", &core.shaderImageGatherExtended},
-            {"shaderClipDistance", &core.shaderClipDistance},
-            {"samplerFilterMinmax", &host.features_12.samplerFilterMinmax},
-            {"hostQueryReset", &host.features_12.hostQueryReset},
-            {"shaderDemoteToHelperInvocation", &host.features_13.shaderDemoteToHelperInvocation}};
+            {"samplerFilterMinmax", &v12.samplerFilterMinmax},
+            {"hostQueryReset", &v12.hostQueryReset},
+            {"shaderDemoteToHelperInvocation", &v13.shaderDemoteToHelperInvocation},
+            {"shaderBufferFloat32AtomicAdd", &host.atomic_float.shaderBufferFloat32AtomicAdd, false, atomics},
+            {"shaderImageFloat32AtomicAdd", &host.atomic_float.shaderImageFloat32AtomicAdd, false, atomics},
+            {"fragmentShaderPixelInterlock", &host.interlock.fragmentShaderPixelInterlock, false, interlock}};
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Names of the device's extensions.
+std::vector<std::string> extensions_of(VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> found(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, found.data());
+    std::vector<std::string> names;
+    for (const VkExtensionProperties& extension : found) {
+        names.emplace_back(extension.extensionName);
+    }
+    return names;
 }
 
 }  // namespace
@@ -71,19 +109,63 @@ HostDevice::HostDevice(const DeviceOptions& options) {
     physical = first_device(instance);
     queue_family = graphics_family(physical);
 
-    // Turn on everything the device has in core, as many renderers do; what Gnomon needs is a part of that.
-    vkGetPhysicalDeviceFeatures2(physical, &features);
-    features.features.robustBufferAccess = VK_FALSE;
-    const auto known = features_by_name(*this);
-    for (const std::string& name : options.without) {
-        const auto found = known.find(name);
-        if (found == known.end()) {
-            throw std::runtime_error("no feature '" + name +
-                                     "' can be left out; among those that can is samplerAnisotropy");
-        }
-        *found->second = VK_FALSE;
-    }
+    choose_features(options);
     make_device();
+}
+
+void HostDevice::choose_features(const DeviceOptions& options) {
+    const std::vector<Feature> known = features_of(*this);
+    for (const std::vector<std::string>* words : {&options.with, &options.without}) {
+        for (const std::string& word : *words) {
+            if (word != "all" && word != VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME &&
+                std::none_of(known.begin(), known.end(), [&](const Feature& f) { return word == f.name; })) {
+                throw std::runtime_error("no feature '" + word +
+                                         "' can be chosen; among those that can is samplerAnisotropy");
+            }
+        }
+    }
+
+    // See what the device has; structs of extensions that it does not know stay out of the chain.
+    const std::vector<std::string> present = extensions_of(physical);
+    void** tail = &features_13.pNext;
+    const auto chain = [&](const char* extension, auto& more) {
+        if (contains(present, extension)) {
+            *tail = &more;
+            tail = &more.pNext;
+        }
+    };
+    chain(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, atomic_float);
+    chain(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME, interlock);
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+
+    // Turn on what is needed, and what is asked for where it is there.
+    std::vector<VkBool32> on;
+    for (const Feature& feature : known) {
+        const bool wanted = feature.needed || contains(options.with, "all") || contains(options.with, feature.name);
+        on.push_back(wanted && !contains(options.without, feature.name) ? *feature.enabled : VK_FALSE);
+    }
+    forget_features();
+    if (!contains(options.without, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) {
+        extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    }
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        *known[i].enabled = on[i];
+        const auto same = [&](const char* name) { return std::strcmp(name, known[i].extension) == 0; };
+        if (on[i] == VK_TRUE && known[i].extension != nullptr &&
+            std::none_of(extensions.begin(), extensions.end(), same)) {
+            extensions.push_back(known[i].extension);
+        }
+    }
+}
+
+void HostDevice::forget_features() {
+    const auto clear = [](auto& more) { more = {.sType = more.sType, .pNext = more.pNext}; };
+    features.features = {};
+    clear(features_11);
+    clear(features_12);
+    clear(features_13);
+    clear(atomic_float);
+    clear(interlock);
 }
 
 void HostDevice::make_instance(bool validate) {

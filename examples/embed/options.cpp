@@ -7,9 +7,9 @@
 namespace {
 
 constexpr const char* usage =
-    "embed [--output FILE.png] [--visibility] [--recipe RECIPE] [--baked FOLDER] [--size WxH] [--objects N] [--frames "
-    "N] [--validate] "
-    "[--without FEATURE]...";
+    "embed [--output FILE.png] [--visibility] [--draw-casters] [--recipe RECIPE] [--baked FOLDER] [--size WxH] "
+    "[--objects N] "
+    "[--frames N] [--validate] [--with FEATURE]... [--without FEATURE]...";
 
 std::uint32_t number(const std::string& text, std::uint32_t least, std::uint32_t most) {
     unsigned value = 0;
@@ -37,6 +37,8 @@ Options read_options(int argc, char** argv) {
             options.output = next();
         } else if (word == "--visibility") {
             options.visibility = true;
+        } else if (word == "--draw-casters") {
+            options.draw_casters = true;
         } else if (word == "--recipe") {
             options.recipe = next();
         } else if (word == "--baked") {
@@ -52,6 +54,8 @@ Options read_options(int argc, char** argv) {
             options.frames = number(next(), 12, 100000);
         } else if (word == "--validate") {
             options.device.validate = true;
+        } else if (word == "--with") {
+            options.device.with.push_back(next());
         } else if (word == "--without") {
             options.device.without.push_back(next());
         } else {

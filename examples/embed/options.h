@@ -6,7 +6,8 @@
 struct Options {
     DeviceOptions device;
     std::string output = "embed.png";
-    bool visibility = false;  ///< V of both lights as pictures beside the output
+    bool draw_casters = false;  ///< with pipelines of the host's own, instead of lending buffers
+    bool visibility = false;    ///< V of both lights as pictures beside the output
     std::string recipe = "pcf,placement=cascades";
     std::string baked;  ///< a folder of compiled shaders, or "" where they are compiled
     VkExtent2D size{1280, 720};
