@@ -10,20 +10,42 @@
 namespace gn {
 namespace {
 
-constexpr const char* main_text = R"(
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant) uniform Push { ivec2 first_pixel; };
+constexpr const char* lookup_text = R"(
+layout(location = 0) out vec4 out_visibility;
+GnLookup lookup_of(GnReceiver receiver, int index) {
+    GnLightView view = known_view(index);
+    GnBias bias = known_bias();
+    return GnLookup(receiver, gn_project(receiver, view, bias), bias, u.light, view);
+}
+)";
 
+constexpr const char* main_text = R"(
 GN_V visibility_in(GnReceiver receiver, int index) {
-    GnLookup at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);
+    GnLookup at = lookup_of(receiver, index);
     return at.projected.inside ? gn_unit(GN_V(GN_LOOKUP(at))) : GN_V(1.0);
 }
 
-void main() {
-    ivec2 pixel = first_pixel + ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
-        return;
+GN_V visibility_by(GnReceiver receiver, GnChoice choice) {
+#if GN_TWO_VIEWS
+    // Few neighbours need a second view, and a loop, unlike a choice, ends for all where none goes on.
+    bool blends = choice.second >= 0 && choice.weight > 0.0;
+    GN_V v;
+    int turn = 0;
+    while (true) {
+        GN_V seen = visibility_in(receiver, turn == 0 ? choice.first : choice.second);
+        v = turn == 0 ? seen : mix(v, seen, choice.weight);
+        if (++turn > int(blends)) {
+            break;
+        }
     }
+    return v;
+#else
+    return visibility_in(receiver, 0);
+#endif
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
     GN_V v = GN_V(0.0);
     GnReceiver receiver;
     bool counted = read_sample(pixel, receiver);
@@ -34,13 +56,10 @@ void main() {
         receiver.object = int(id_bytes.x) + 256 * int(id_bytes.y);
 #endif
         choice = GN_CHOOSE(receiver, placement);
-        v = visibility_in(receiver, choice.first);
-        if (GN_TWO_VIEWS && choice.second >= 0 && choice.weight > 0.0) {
-            v = mix(v, visibility_in(receiver, choice.second), choice.weight);
-        }
+        v = visibility_by(receiver, choice);
     }
-    imageStore(visibility, pixel, GN_V_TEXEL(v));
-    GN_WRITE_SIDES(pixel, counted, receiver, choice.first);
+    out_visibility = GN_V_TEXEL(v);
+    GN_WRITE_SIDES(counted, receiver, choice.first);
 }
 )";
 
@@ -48,7 +67,7 @@ void main() {
 std::string crossing_defines(const LightViews& views) {
     return views.crosses ? fmt::format(
                                "#define GN_CROSSING\n#define GN_CHOICE(receiver) {}\n"
-                               "#define GN_LIGHT_VIEW(i) views[i]\n",
+                               "#define GN_LIGHT_VIEW(i) known_view(i)\n",
                                choose_call(views))
                          : "";
 }
@@ -92,22 +111,25 @@ std::string side_name(std::string_view side) {
 /// What is told beside V, by the view that serves the sample first.
 std::string side_calls(const FrameInput& input, const Recipe& recipe, const ShadowMap& map) {
     if (input.sides.empty()) {
-        return "#define GN_WRITE_SIDES(pixel, counted, receiver, index)\n";
+        return "#define GN_WRITE_SIDES(counted, receiver, index)\n";
     }
     const Part& lookup = *recipe.lookup;
-    std::string text =
-        "#define GN_WRITE_SIDES write_sides\n"
-        "void write_sides(ivec2 pixel, bool counted, GnReceiver receiver, int index) {\n"
-        "    GnLookup at;\n"
-        "    if (counted) {\n"
-        "        at = GnLookup(receiver, gn_project(receiver, views[index], u.bias), u.bias, u.light, views[index]);\n"
-        "        counted = at.projected.inside;\n    }\n";
-    for (const std::string_view side : input.sides) {
-        text += fmt::format("    imageStore({}, pixel, vec4(counted ? gn_{}_{}(at{}{}) : 0.0));\n", side_name(side),
+    std::string text = "#define GN_WRITE_SIDES write_sides\n";
+    std::string body;
+    for (std::size_t i = 0; i < input.sides.size(); ++i) {
+        const std::string_view side = input.sides[i];
+        text += fmt::format("layout(location = {}) out vec4 {};\n", i + 1, side_name(side));
+        body += fmt::format("    {} = vec4(counted ? gn_{}_{}(at{}{}) : 0.0);\n", side_name(side),
                             identifier(lookup.id), identifier(side), arguments(map, read_by(lookup)),
                             lookup.params_type.empty() ? "" : ", u.lookup_params");
     }
-    return text + "}\n";
+    return text +
+           "void write_sides(bool counted, GnReceiver receiver, int index) {\n"
+           "    GnLookup at;\n"
+           "    if (counted) {\n"
+           "        at = lookup_of(receiver, index);\n"
+           "        counted = at.projected.inside;\n    }\n" +
+           body + "}\n";
 }
 
 std::string map_call(const Part& part, const ShadowMap& map) {
@@ -133,36 +155,46 @@ ShaderInputs inputs_of(const FrameInput& input, const Recipe& recipe, const Ligh
     return inputs;
 }
 
-ComputeDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map,
-                           const ShaderInputs& inputs) {
+/// GLSL that a recipe's resolve shader reads samples, views and bias by.
+std::string sample_text(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    return sample_functions(input, recipe, views) + crossing_defines(views) +
+           fmt::format("#define GN_TWO_VIEWS {:d}\n", views.views.size() > 1);
+}
+
+RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map,
+                          const ShaderInputs& inputs) {
     const Part& placement = *views.part;
     const Part& lookup = *recipe.lookup;
     std::string text = expect_text(input.device) + channels_text(lookup.channels) + receiver_defines(recipe, views) +
-                       (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "") + crossing_defines(views) +
-                       fmt::format("#define GN_TWO_VIEWS {}\n", views.views.size() > 1);
-    text += "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl);
+                       (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "");
+    text += "#include \"shadow/view/view.glsl\"\n" + placement_text(placement, recipe);
     text += prologue_of(*recipe.map, recipe) + include_line(recipe.map->glsl);
     // A lookup that filters calls the map's function, so that the uniform block must stand before it.
     const std::string lookup_header = lookup.params_type.empty() || lookup.glsl.empty()
                                           ? ""
                                           : std::string(lookup.glsl.substr(0, lookup.glsl.rfind('.'))) + ".h";
-    text += include_line(lookup_header) + inputs.text();
+    text += include_line(lookup_header) + inputs.text() + sample_text(input, recipe, views);
     text += recipe.map->glsl.empty() ? "" : map_call(*recipe.map, map);
-    text += prologue_of(lookup, recipe) + include_line(lookup.glsl);
-    text += sample_functions(views) + calls(recipe, map) + side_calls(input, recipe, map) + main_text;
-    return {{ShaderKind::compute, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text},
-            lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{}};
+    text += prologue_of(lookup, recipe) + include_line(lookup.glsl) + calls(recipe, map) + lookup_text;
+    text += side_calls(input, recipe, map) + main_text;
+    RasterDesc desc = fullscreen(
+        {ShaderKind::fragment, fmt::format("resolve {}+{}+{}", placement.id, recipe.map->id, lookup.id), text});
+    desc.constants = lookup.constants != nullptr ? lookup.constants(recipe) : SpecConstants{};
+    return desc;
 }
 
 /// All that a recipe's resolve shader depends on from light to light.
-std::uint64_t shader_key(const Recipe& recipe, const LightViews& views, const ShaderInputs& inputs) {
+std::uint64_t shader_key(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                         const ShaderInputs& inputs) {
     Hasher hasher;
     hasher.text(views.part->id)
         .text(recipe.map->id)
         .text(recipe.lookup->id)
         .text(receiver_defines(recipe, views))
-        .value(views.crosses)
-        .value(views.views.size());
+        .text(sample_text(input, recipe, views));
+    for (const std::string_view side : input.sides) {
+        hasher.text(side);
+    }
     inputs.hash(hasher);
     return hasher.finish().low;
 }
@@ -177,35 +209,32 @@ TextureHandle create_visibility(FrameGraph& graph, const ViewSamples& samples, u
 }
 
 Visibility add_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
-    const uint channels = recipe.lookup->channels;
     const ViewSamples& samples = input.samples;
-    Visibility result{create_visibility(input.graph, samples, channels)};
-    // Sides are written for all of the picture.
-    const ivec4 lit = input.sides.empty() ? lit_pixels(input) : ivec4(0, 0, samples.width, samples.height);
-
-    // No sample counts beyond the pixels that the light can reach, which may be all of them in one frame and few in the next.
-    if (input.light().shape.kind != GN_LIGHT_DIRECTIONAL) {
-        input.graph.add_pass(
-            "lookup: dark", [&](PassBuilder& pass) { pass.color(result.image, Load::clear); }, [](Recorder&) {});
-    }
-    ShaderInputs inputs = inputs_of(input, recipe, views, map);
-    inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
+    Visibility result{create_visibility(input.graph, samples, recipe.lookup->channels)};
     for (const std::string_view side : input.sides) {
         result.sides.push_back({std::string(side), create_visibility(input.graph, samples), nearest()});
-        inputs.image("r32f", "writeonly", "image2D", side_name(side), result.sides.back().texture);
     }
-    const auto shader = made_once(input.prepared, "resolve", shader_key(recipe, views, inputs),
+    const ShaderInputs inputs = inputs_of(input, recipe, views, map);
+    const auto shader = made_once(input.prepared, "resolve", shader_key(input, recipe, views, inputs),
                                   [&] { return sealed(resolve_shader(input, recipe, views, map, inputs)); });
     input.graph.add_pass(
-        "lookup", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, lit](Recorder& r) {
+        "lookup",
+        [&](PassBuilder& pass) {
+            pass.color(result.image, Load::clear);
+            for (const Offer& side : result.sides) {
+                pass.color(side.texture, Load::clear);
+            }
+            inputs.declare(pass);
+        },
+        [inputs, shader, lit = lit_pixels(input)](Recorder& r) {
+            // No sample counts beyond the pixels that the light can reach.
             if (lit.z == 0 || lit.w == 0) {
                 return;
             }
             r.bind(*shader);
             inputs.set(r);
-            r.push_value(ivec2(lit));
-            r.dispatch_pixels(static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));
+            r.scissor(lit.x, lit.y, static_cast<std::uint32_t>(lit.z), static_cast<std::uint32_t>(lit.w));
+            r.draw(3);
         });
     return result;
 }

@@ -70,6 +70,43 @@ float gn_ranged_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ran
     EXPECT_GT(counted, 300);
 }
 
+/// V as a third of the cascade that served the sample.
+std::vector<float> cascades_of(const std::string& transition) {
+    static const Part layer = [] {
+        Part part;
+        part.id = "layer";
+        part.stage = Stage::lookup;
+        part.needs = {"depth"};
+        part.prologue = [](const Recipe&) {
+            return std::string(
+                "float gn_layer_visibility(GnLookup at, sampler2DArray depth) { return float(at.projected.layer) / "
+                "3.0; }\n");
+        };
+        return part;
+    }();
+    Recipe recipe = load_recipe("hard,resolution=64,placement=cascades,cascades.width=0.5," + transition);
+    recipe.lookup = &layer;
+    const Scene scene = load_scene("corridor");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    return render_frame(test::device(), gpu, scene.camera(""), recipe,
+                        {.width = 64, .height = 64, .only_light = 0, .picture = false})
+        .visibility.front()
+        .values;
+}
+
+TEST(ResolveRendered, GoesOverFromOneViewToTheNextWhereBothServe) {
+    const test::ValidationGuard guard;
+    const std::vector<float> one = cascades_of("cascades.transition=none");
+    const std::vector<float> both = cascades_of("cascades.transition=blend");
+    int between = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_GE(both[i], one[i] - 1e-6F) << i;
+        EXPECT_LE(both[i], one[i] + 1.0F / 3 + 1e-6F) << i;
+        between += both[i] > one[i] + 0.01F ? 1 : 0;
+    }
+    EXPECT_GT(between, 200);
+}
+
 TEST(ResolveRendered, IsSilentAboutRounding) {
     for (const char* right : {"1.0", "0.0", "1.0 + 1.0e-5", "-1.0e-5"}) {
         EXPECT_EQ(said_of(right), std::vector<std::string>{}) << right;

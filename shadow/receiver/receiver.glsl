@@ -130,7 +130,7 @@ GN_FN void gn_uv_gradients(GnLightView view, vec3 p_ws, GN_OUT(vec3) du_ws, GN_O
     vec2 scale_ts = 0.5f * vec2(view.rect_ts.z, view.rect_ts.w);
     vec3 row_w = gn_row(view.cs_from_ws, 3);
     vec4 p_cs = gn_clip(view, p_ws);
-    float inverse_w = 1.0f / p_cs.w;
+    float inverse_w = GN_VIEW_KIND == 0 ? 1.0f : 1.0f / p_cs.w;
     du_ws = (gn_row(view.cs_from_ws, 0) - p_cs.x * inverse_w * row_w) * (inverse_w * scale_ts.x);
     dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
     if (gn_bent(view)) {
@@ -236,12 +236,13 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
         return gn_open_cone(gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws), bias.cone, unit, bias);
     }
     result.plane_curve = vec2(0.0f);
-    float inverse_w = 1.0f / p_cs.w;
+    float w = GN_VIEW_KIND == 0 ? 1.0f : p_cs.w;
+    float inverse_w = 1.0f / w;
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
     result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
     result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
     result.bias = -dot(vec3(view.depth_from_ws), p_ws - receiver.p_ws);
-    result.inside = p_cs.w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
+    result.inside = w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
 
     // The receiver's plane: displacements e_u, e_v within it that move uv by one, to first order; the division in
     // gn_plane_depth makes them exact. Solve [gx gy n]^T d = (du, dv, 0) (w + row_w d) for d.
@@ -252,7 +253,7 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
         vec3 e_u = cross(gy, receiver.n_ws) / determinant;
         vec3 e_v = cross(receiver.n_ws, gx) / determinant;
         vec3 depth_axis = vec3(view.depth_from_ws);
-        result.plane_slope = vec2(dot(depth_axis, e_u), dot(depth_axis, e_v)) * p_cs.w;
+        result.plane_slope = vec2(dot(depth_axis, e_u), dot(depth_axis, e_v)) * w;
         result.plane_fall = vec2(dot(row_w, e_u), dot(row_w, e_v));
     } else {
         result.plane_slope = vec2(0.0f);

@@ -2,6 +2,7 @@
 #include "shadow/receiver/sample_pass.h"
 
 #include "shadow/geometry/potential_receivers.h"
+#include "shadow/receiver/known.h"
 #include "shadow/recipe/guard.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ constexpr const char* read_text = R"(
 bool read_sample(ivec2 pixel, out GnReceiver receiver) {
     vec4 position = gbuffer_position_texel(pixel);
     vec4 normal = gbuffer_normal_texel(pixel);
-    if (position.w < 0.5 || !gn_counted(u.whole, position.xyz, normal.xyz)) {
+    if (position.w < 0.5 || !gn_counted(known_whole(), position.xyz, normal.xyz)) {
         return false;
     }
     receiver = gn_receiver(u.view, pixel, position, normal);
@@ -114,8 +115,13 @@ std::string choose_call(const LightViews& views) {
     return call + ")";
 }
 
-std::string sample_functions(const LightViews& views) {
-    std::string text = fmt::format("#define GN_CHOOSE(receiver, placement) {}\n", choose_call(views));
+std::string placement_text(const Part& placement, const Recipe& recipe) {
+    return (placement.prologue != nullptr ? placement.prologue(recipe) : "") + include_line(placement.glsl);
+}
+
+std::string sample_functions(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
+    std::string text = known_text(input, recipe, views);
+    text += fmt::format("#define GN_CHOOSE(receiver, placement) {}\n", choose_call(views));
     for (const PlacementTable& table : views.tables) {
         text += fmt::format("{} gn_{}_{}(int i) {{ return {}[i]; }}\n", table.type, identifier(views.part->id),
                             identifier(table.name), lent_name(table.name));

@@ -28,11 +28,13 @@ ShaderInputs view_inputs(const LightViews& views);
 /// Their types stand in shadow/view/view.glsl.
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
+/// GLSL of the placement's choice, before the inputs' text.
+std::string placement_text(const Part& placement, const Recipe& recipe);
 /// GLSL: the call of the placement's function, of `receiver` and `placement`.
 std::string choose_call(const LightViews& views);
-/// GLSL, after the inputs' text: GN_CHOOSE(receiver, placement), what the placement's tables hold, and
+/// GLSL, after the inputs' text: known_text, GN_CHOOSE(receiver, placement), what the placement's tables hold, and
 /// `bool read_sample(ivec2 pixel, out GnReceiver)`, which is false where no sample counts.
-std::string sample_functions(const LightViews& views);
+std::string sample_functions(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
 /// Adds gbuffer_position and gbuffer_normal to what a shader reads, texel by texel.
 void add_gbuffer(ShaderInputs& inputs, const Device& device, const ViewSamples& samples);

@@ -24,9 +24,9 @@ SampleImages add_sample_pass(const FrameInput& input, const Recipe& recipe, cons
     inputs.image("rgba32f", "writeonly", "image2D", "second", images.second);
     inputs.constant_bytes(pass.member_type, pass.member, member);
     const std::string text = "layout(local_size_x = 8, local_size_y = 8) in;\n" + receiver_defines(recipe, views) +
-                             "#include \"shadow/view/view.glsl\"\n" + include_line(placement.glsl) +
-                             include_line("shadow/show/show.glsl") + inputs.text() + sample_functions(views) +
-                             pass.text;
+                             "#include \"shadow/view/view.glsl\"\n" + placement_text(placement, recipe) +
+                             include_line("shadow/show/show.glsl") + inputs.text() +
+                             sample_functions(input, recipe, views) + pass.text;
     const ComputeDesc shader{{ShaderKind::compute, fmt::format("{} {}", pass.name, placement.id), text}, {}};
     input.graph.add_pass(
         pass.name, [&](PassBuilder& builder) { inputs.declare(builder); },

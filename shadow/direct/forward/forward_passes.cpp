@@ -157,11 +157,11 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
     inputs.buffer("writeonly buffer", "Samples", "GnForwardSample samples[];", buffer);
     inputs.constant("GnForwardParams", "params", params);
     const std::string defines = receiver_defines(recipe, views);
-    const Hasher key = hashed(inputs).text(defines).text(views.part->id);
+    const std::string functions = sample_functions(input, recipe, views);
+    const Hasher key = hashed(inputs).text(defines).text(functions).text(views.part->id);
     const auto shader = compute_once(input.prepared, "forward-samples.comp", key, [&] {
-        return defines + include_line("shadow/view/view.glsl") + include_line(views.part->glsl) +
-               include_line("shadow/direct/forward/forward.glsl") + inputs.text() + sample_functions(views) +
-               samples_text;
+        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
+               include_line("shadow/direct/forward/forward.glsl") + inputs.text() + functions + samples_text;
     });
     input.graph.add_pass(
         "forward: samples", [&](PassBuilder& pass) { inputs.declare(pass); },

@@ -142,6 +142,13 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     return views;
 }
 
+std::string known_cascades(const Recipe& recipe) {
+    const auto params = recipe.of<GnCascadesParams>("cascades");
+    return fmt::format(
+        "#define GN_CASCADES_COUNT {}\n#define GN_CASCADES_SELECT {}\n#define GN_CASCADES_TRANSITION {}\n",
+        params.count, params.select, params.transition);
+}
+
 std::string refuses_cascades(const Scene&, const Light&, const Recipe& recipe) {
     const auto params = recipe.of<GnCascadesParams>("cascades");
     const bool kept = params.scroll != 0 || params.rate > 1;
@@ -235,6 +242,7 @@ const Part& placement_cascades() {
         p.params_type = "GnCascadesParams";
         p.glsl = "shadow/placement/cascades/cascades.glsl";
         p.place = place_cascades;
+        p.prologue = known_cascades;
         p.refuses = refuses_cascades;
         return p;
     }();

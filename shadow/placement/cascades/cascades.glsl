@@ -10,6 +10,21 @@
 #include "shadow/placement/cascades/cascades.h"
 #include "shadow/placement/faces.glsl"
 
+// What a host may fix when it compiles: the number of cascades, GN_SELECT_* and GN_TRANSITION_*. Left open, all of it is
+// decided receiver by receiver.
+//   #define GN_CASCADES_COUNT 4
+//   #define GN_CASCADES_SELECT 0
+//   #define GN_CASCADES_TRANSITION 1
+#if defined(__cplusplus) || !defined(GN_CASCADES_COUNT)
+#define GN_CASCADES_COUNT int(data.values[0].x)
+#endif
+#if defined(__cplusplus) || !defined(GN_CASCADES_SELECT)
+#define GN_CASCADES_SELECT int(data.values[0].z)
+#endif
+#if defined(__cplusplus) || !defined(GN_CASCADES_TRANSITION)
+#define GN_CASCADES_TRANSITION int(data.values[0].y)
+#endif
+
 #ifdef __cplusplus
 namespace gn::glsl {
 #endif
@@ -132,15 +147,15 @@ GN_FN GnCascadesPlace gn_cascades_by_projection(GnPlacementData data, int count,
 }
 
 GN_FN GnChoice gn_cascades_choose(GnReceiver receiver, GnPlacementData data) {
-    int count = int(data.values[0].x);
+    int count = GN_CASCADES_COUNT;
     GnCascadesPlace place;
-    if (int(data.values[0].z) == GN_SELECT_PROJECTION) {
+    if (GN_CASCADES_SELECT == GN_SELECT_PROJECTION) {
         place = gn_cascades_by_projection(data, count, receiver.p_ws);
     } else {
         place = gn_cascades_by_distance(data, count, receiver.view_depth);
     }
     float weight = place.cascade + 1 < count ? gn_cascades_band(place.position, data.values[0].w) : 0.0f;
-    return gn_cascades_transition(place.cascade, weight, int(data.values[0].y), receiver.p_ss);
+    return gn_cascades_transition(place.cascade, weight, GN_CASCADES_TRANSITION, receiver.p_ss);
 }
 
 #ifdef __cplusplus
