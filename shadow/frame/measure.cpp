@@ -41,8 +41,9 @@ BuiltFrame build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const
     }
     if (options.picture) {
         graph.group("shading");
-        frame.picture =
-            add_shading({graph.device(), graph, *scene.scene, casters.handles, frame.samples}, frame.visibility);
+        FrameInput input{graph.device(), graph, *scene.scene, casters.handles, frame.samples};
+        input.prepared = &recipe;
+        frame.picture = add_shading(input, frame.visibility);
     }
     return frame;
 }
@@ -180,7 +181,7 @@ Image shade(Device& device, SceneGpu& scene, const Camera& camera, uint width, u
                                            .format = visibility_format(visibility[i].channels == 1 ? 1 : 3),
                                            .width = width,
                                            .height = height,
-                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT},
+                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT},
                                           std::as_bytes(std::span(texels.values))));
         given[i] = graph.import(textures.back());
     }

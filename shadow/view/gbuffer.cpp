@@ -45,7 +45,7 @@ layout(push_constant, scalar) uniform Push {
     vec3 emissive;
     float roughness;
     float metallic;
-    float alpha_cutoff;   // below zero: opaque
+    float alpha_cutoff;
     uint first_triangle;
     uint object_id;
     float surface;        // position.w: 2 where no shadow is received, else 1
@@ -62,11 +62,15 @@ layout(location = 4) out vec4 out_material;
 layout(location = 5) out vec4 out_emission;
 
 void main() {
-    vec4 base_color = texture(base_color_texture, in_uv) * push.base_color * in_color;
-    float alpha = textureLod(base_color_texture, in_uv, 0.0).a * push.base_color.a * in_color.a;
-    if (push.alpha_cutoff >= 0.0 && alpha < push.alpha_cutoff) {
+    vec4 base_color = push.base_color * in_color;
+#ifdef GN_TEXTURED
+    base_color = texture(base_color_texture, in_uv) * push.base_color * in_color;
+#endif
+#ifdef GN_MASKED
+    if (textureLod(base_color_texture, in_uv, 0.0).a * push.base_color.a * in_color.a < push.alpha_cutoff) {
         discard;
     }
+#endif
     // Take the exact plane of the triangle, and move the interpolated point into it.
     uint corner = 3u * (push.first_triangle + uint(gl_PrimitiveID));
     vec3 a_ws = positions[indices[corner]];
@@ -116,37 +120,72 @@ constexpr std::array rounds{Faces{VK_CULL_MODE_BACK_BIT, false, false}, Faces{VK
 constexpr float push_units = 4;
 constexpr float push_pixels = 4.0F / 256;
 
-RasterDesc gbuffer_pipeline(const Faces& faces) {
+/// What a material leaves out: most are neither tested for alpha, which keeps hidden fragments from being left out, nor
+/// have a texture.
+struct Surface {
+    bool masked, textured;
+};
+
+RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
     RasterDesc desc;
     desc.cull = faces.culled;
     desc.depth_bias = faces.pushed;
     desc.color_mask = faces.depth_only ? 0 : 0xF;
     desc.vertex = {ShaderKind::vertex, "gbuffer.vert", vertex_text};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag", fragment_text};
+    if (surface.masked || !faces.depth_only) {
+        desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag",
+                                     std::string(surface.masked ? "#define GN_MASKED\n" : "") +
+                                         (surface.textured ? "#define GN_TEXTURED\n" : "") + fragment_text};
+    }
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_GREATER;
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
     desc.vertex_stride = sizeof(vec3);
-    return desc;
+    return sealed(desc);
+}
+
+/// By round, masked and textured.
+const RasterDesc& pipeline(std::size_t round, const Surface& surface) {
+    static const auto all = [] {
+        std::array<std::array<RasterDesc, 4>, rounds.size()> made;
+        for (std::size_t i = 0; i < rounds.size(); ++i) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                made[i][k] = gbuffer_pipeline(rounds[i], {k >= 2, k % 2 == 1});
+            }
+        }
+        return made;
+    }();
+    return all[round][(surface.masked ? 2U : 0U) + (surface.textured ? 1U : 0U)];
 }
 
 TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint width, uint height) {
     return graph.create({.name = name, .format = format, .width = width, .height = height});
 }
 
-void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, bool backs) {
+void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, std::size_t round) {
+    // Depth is reversed: less is farther.
+    r.depth_bias(-push_units, -push_pixels);
+    const RasterDesc* bound = nullptr;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (backs && is_single_sided(scene, object)) {
+        if (rounds[round].culled == VK_CULL_MODE_FRONT_BIT && is_single_sided(scene, object)) {
             continue;
         }
         const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
-        const BaseColor color = base_color(scene, handles, material);
-        r.set("base_color_texture", color.texture, color.sampler);
-        const AlphaTest test = alpha_test(material);
+        const bool masked = is_masked(scene, object);
+        const bool textured = material.base_color_texture >= 0;
+        const RasterDesc& wanted = pipeline(round, {masked, textured});
+        if (&wanted != bound) {
+            r.bind(wanted);
+            bound = &wanted;
+        }
+        if (masked || textured) {
+            const BaseColor color = base_color(scene, handles, material);
+            r.set("base_color_texture", color.texture, color.sampler);
+        }
         r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
-                          is_masked(scene, object) ? test.cutoff : -1.0F, object.first_triangle,
-                          static_cast<std::uint32_t>(i), object.receives ? 1.0F : 2.0F});
+                          alpha_test(material).cutoff, object.first_triangle, static_cast<std::uint32_t>(i),
+                          object.receives ? 1.0F : 2.0F});
         r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
     }
 }
@@ -211,19 +250,17 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
             sample_textures(pass, handles);
         },
         [samples, handles, scene = scene.scene](Recorder& r) {
-            for (const Faces& faces : rounds) {
-                r.bind(gbuffer_pipeline(faces));
-                r.set_value("u", samples.constants);
-                r.set("Normals", handles.normals);
-                r.set("Uvs", handles.uvs);
-                r.set("Colors", handles.colors);
-                r.set("Positions", handles.positions);
-                r.set("Indices", handles.indices);
-                r.vertex_buffer(handles.positions);
-                r.index_buffer(handles.indices);
-                // Depth is reversed: less is farther.
-                r.depth_bias(-push_units, -push_pixels);
-                draw_objects(r, *scene, handles, faces.culled == VK_CULL_MODE_FRONT_BIT);
+            r.set_value("u", samples.constants);
+            r.set("Normals", handles.normals);
+            r.set("Uvs", handles.uvs);
+            r.set("Colors", handles.colors);
+            r.set("Positions", handles.positions);
+            r.set("Indices", handles.indices);
+            r.vertex_buffer(handles.positions);
+            r.index_buffer(handles.indices);
+            r.set("base_color_texture", handles.white);
+            for (std::size_t round = 0; round < rounds.size(); ++round) {
+                draw_objects(r, *scene, handles, round);
             }
         });
     return samples;
