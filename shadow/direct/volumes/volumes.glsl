@@ -71,6 +71,11 @@ GN_FN bool gn_volumes_has_far_cap(GnVolumesFrame frame) {
     return frame.light_ws.w > 0.0f || frame.reach > 0.0f;
 }
 
+// Corners of a side: two triangles, or one where both points at infinity are the same.
+GN_FN uint gn_volumes_corners(GnVolumesFrame frame) {
+    return gn_volumes_has_far_cap(frame) ? 6u : 3u;
+}
+
 // The far end of the strip of a side that lies at its edge: pushed away by what 64 pixels span there, so that even seen
 // at a slant the strip is wider than the rasterizer's grid.
 GN_FN vec4 gn_volumes_strip(GnVolumesFrame frame, vec3 p_ws, vec3 away_ws) {

@@ -2,6 +2,8 @@
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
 // [EK02] The raster passes of a light: counting, and what the count says.
 // Departs from it: the count is a sum of blended floats, exact to 16 million, where eight bits of stencil wrap at 256.
+#include "gpu/shader_inputs.h"
+#include "shadow/direct/volumes/volumes.glsl"
 #include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/receiver/sample_pass.h"
 
@@ -9,27 +11,23 @@ namespace gn {
 
 namespace {
 
-// Both vertex shaders clip at the near plane themselves: depth clamping, which keeps what lies beyond the far plane,
-// turns the fixed clipping off.
+// The vertex shaders clip at the near plane themselves: depth clamping, which keeps what lies beyond the far plane, turns
+// the fixed clipping off.
 constexpr const char* side_text = R"(
-#include "shadow/direct/volumes/volumes.glsl"
-#include "shadow/view/project.glsl"
 layout(constant_id = 0) const int STRIP = 0;
-layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
-layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 2, scalar) readonly buffer Edges { uvec2 edges[]; };
-layout(binding = 3, scalar) readonly buffer Sides { uint sides[]; };
 layout(location = 0) flat out vec3 a_ws;
 layout(location = 1) flat out vec3 b_ws;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
-    uint side = sides[uint(gl_VertexIndex) / 6u];
-    uint corner = uint(gl_VertexIndex) % 6u;
+    // From outside the side is a, a at infinity, b at infinity, b; where both points at infinity are one, its first
+    // triangle is nothing.
+    uint corners = STRIP != 0 ? 6u : gn_volumes_corners(u.frame);
+    uint side = sides[uint(gl_VertexIndex) / corners];
+    uint corner = uint(gl_VertexIndex) % corners + 6u - corners;
     uvec2 edge = edges[side >> 1];
     a_ws = positions[edge.x];
     b_ws = positions[edge.y];
-    // From outside the side is a, a at infinity, b at infinity, b; for the sun both points at infinity are one.
     bool turned = (side & 1u) != 0u;
     bool second = corner == 2u || corner >= 4u;
     bool far = corner == 1u || corner == 2u || corner == 4u;
@@ -44,48 +42,47 @@ void main() {
 )";
 
 constexpr const char* receiver_text = R"(
-layout(binding = 4) uniform sampler2D depth;
 void main() {
     gl_FragDepth = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
 }
 )";
 
 constexpr const char* border_text = R"(
-#include "shadow/direct/volumes/volumes.glsl"
-layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
-layout(binding = 4) uniform sampler2D position_ws;
-layout(binding = 5) uniform sampler2D normal_ws;
 layout(location = 0) flat in vec3 a_ws;
 layout(location = 1) flat in vec3 b_ws;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 p_ws = texelFetch(position_ws, pixel, 0);
-    if (p_ws.w == 0.0 || !gn_volumes_touches(u.frame, p_ws.xyz, texelFetch(normal_ws, pixel, 0).xyz, a_ws, b_ws)) {
+    vec4 p_ws = gbuffer_position_texel(pixel);
+    if (p_ws.w == 0.0 || !gn_volumes_touches(u.frame, p_ws.xyz, gbuffer_normal_texel(pixel).xyz, a_ws, b_ws)) {
         discard;
     }
     gl_FragDepth = min(gl_FragCoord.z * 1.00001, 1.0);
 }
 )";
 
-constexpr const char* cap_text = R"(
-#include "shadow/direct/volumes/volumes.glsl"
-#include "shadow/view/project.glsl"
-layout(constant_id = 0) const int MASKED = 0;
+// An opaque cap's vertex, as it is or at the far end.
+constexpr const char* opaque_text = R"(
+layout(constant_id = 2) const int FAR = 0;
+layout(location = 0) in vec3 in_position_ws;
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+invariant gl_Position;
+void main() {
+    vec4 corner_ws = FAR != 0 ? gn_volumes_extrude(in_position_ws, u.frame.light_ws, u.frame.reach)
+                              : vec4(in_position_ws, 1.0);
+    gl_Position = gn_view_position(u.frame.cs_from_ws, corner_ws);
+    gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+}
+)";
+
+constexpr const char* masked_text = R"(
 layout(constant_id = 1) const int TURNED = 0;
-layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
-layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
-layout(binding = 3, scalar) readonly buffer Caps { uint caps[]; };
-layout(binding = 5, scalar) readonly buffer Owners { uint owners[]; };
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 void main() {
     uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
     uint slot = uint(gl_VertexIndex) / corners;
     uint corner = uint(gl_VertexIndex) % corners;
-    uint first = MASKED != 0 ? u.frame.opaque_triangles : 0u;
-    uint end = MASKED != 0 ? u.frame.triangles : u.frame.opaque_triangles;
-    uint t = caps[TURNED != 0 ? end - 1u - slot : first + slot];
+    uint t = caps[TURNED != 0 ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot];
     // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
     bool far = corner >= 3u;
     vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
@@ -94,7 +91,7 @@ void main() {
     gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
     // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
     // every opaque cap does.
-    if (MASKED != 0 && (owners[t] & 6u) == 2u &&
+    if ((owners[t] & 6u) == 2u &&
         gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]], positions[indices[3u * t + 2u]],
                         u.frame.eye_ws) > 0) {
         gl_Position.z = 0.0;
@@ -104,79 +101,74 @@ void main() {
 
 constexpr const char* count_text = R"(
 layout(constant_id = 1) const int TURNED = 0;
+layout(constant_id = 2) const int FAR = 0;
 layout(location = 0) out float count;
 void main() {
-    // What lies behind the sample: +1 where a ray leaves the volume, -1 where it enters.
-    count = gl_FrontFacing == (TURNED == 0) ? -1.0 : 1.0;
+    // What lies behind the sample: +1 where a ray leaves the volume, -1 where it enters. The far end is a mirror image.
+    count = gl_FrontFacing == (TURNED == FAR) ? -1.0 : 1.0;
 }
 )";
 
 constexpr const char* resolve_text = R"(
-#include "shadow/scene/light.h"
-layout(binding = 0, scalar) uniform Light { GnLight light; } u;
-layout(binding = 1) uniform sampler2D position_ws;
-layout(binding = 2) uniform sampler2D normal_ws;
-layout(binding = 3) uniform sampler2D counts;
 layout(location = 0) out float visibility;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec4 p_ws = texelFetch(position_ws, pixel, 0);
-    bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, texelFetch(normal_ws, pixel, 0).xyz);
-    visibility = counted && texelFetch(counts, pixel, 0).r == 0.0 ? 1.0 : 0.0;
+    vec4 p_ws = gbuffer_position_texel(pixel);
+    bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
+    visibility = counted && counts_texel(pixel).r == 0.0 ? 1.0 : 0.0;
 }
 )";
 
+std::string with(const ShaderInputs& inputs, const char* text) {
+    return "#include \"shadow/direct/volumes/volumes.glsl\"\n#include \"shadow/view/project.glsl\"\n" + inputs.text() +
+           text;
+}
+
+ShaderInputs side_inputs(const FrameInput& input, const VolumeBuffers& buffers) {
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
+        .buffer("readonly buffer", "Edges", "uvec2 edges[];", buffers.edges)
+        .buffer("readonly buffer", "Sides", "uint sides[];", buffers.sides)
+        .constant("GnVolumesFrame", "frame", buffers.frame);
+    return inputs;
+}
+
 // Z-fail: what lies at or behind the sample counts. Depth is reversed, so that this is LESS_OR_EQUAL; opaque caps always
 // count (volumes.md derives both).
-RasterDesc volume_pipeline(const char* name, const char* text, VkCompareOp compare, bool turned) {
+RasterDesc count_pipeline(const char* name, const std::string& text, VkCompareOp compare, bool turned, bool far) {
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, name, text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", count_text};
-    desc.constants = {{1, turned ? 1U : 0U}};
+    desc.constants = {{1, turned ? 1U : 0U}, {2, far ? 1U : 0U}};
     desc.blend = Blend::add;
     desc.depth_test = desc.depth_clamp = true;
     desc.depth_compare = compare;
     return desc;
 }
 
-RasterDesc receiver_pipeline() {
-    RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-receiver.frag", receiver_text});
+RasterDesc opaque_pipeline(const std::string& text, bool turned, bool far) {
+    RasterDesc desc = count_pipeline("volume-cap.vert", text, VK_COMPARE_OP_ALWAYS, turned, far);
+    desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
+    desc.vertex_stride = sizeof(vec3);
+    return desc;
+}
+
+RasterDesc receiver_pipeline(const ShaderInputs& inputs) {
+    RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-receiver.frag", with(inputs, receiver_text)});
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_ALWAYS;
     return desc;
 }
 
 // The beginning of each side, where it may lie before a sample that touches the edge it hangs from.
-RasterDesc border_pipeline() {
+RasterDesc border_pipeline(const ShaderInputs& inputs) {
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, "volume-side.vert", side_text};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", border_text};
+    desc.vertex = {ShaderKind::vertex, "volume-side.vert", with(inputs, side_text)};
+    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", with(inputs, border_text)};
     desc.constants = {{0, 1U}};
     desc.depth_test = desc.depth_write = desc.depth_clamp = true;
     desc.depth_compare = VK_COMPARE_OP_GREATER;
     return desc;
-}
-
-RasterDesc cap_pipeline(bool masked, bool turned) {
-    RasterDesc desc = volume_pipeline("volume-cap.vert", cap_text,
-                                      masked ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_ALWAYS, turned);
-    desc.constants = {{0, masked ? 1U : 0U}, {1, turned ? 1U : 0U}};
-    return desc;
-}
-
-}  // namespace
-
-namespace {
-
-// The shaders' common inputs; names that a shader does not use are ignored.
-void set_inputs(Recorder& r, const VolumeBuffers& buffers, const SceneHandles& handles) {
-    r.set_value("u", buffers.frame);
-    r.set("Positions", handles.positions);
-    r.set("Indices", handles.indices);
-    r.set("Edges", buffers.edges);
-    r.set("Sides", buffers.sides);
-    r.set("Caps", buffers.caps);
-    r.set("Owners", buffers.owners);
 }
 
 }  // namespace
@@ -185,28 +177,23 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
     const ViewSamples& samples = input.samples;
     const TextureHandle lifted = input.graph.create(TextureDesc{
         .name = "volume receivers", .format = VK_FORMAT_D32_SFLOAT, .width = samples.width, .height = samples.height});
+    ShaderInputs inputs = side_inputs(input, buffers);
+    add_gbuffer(inputs, input.device, samples);
+    inputs.texture("sampler2D", "depth", lent(samples.depth, "depth"));
     input.graph.add_pass(
         "volumes: receivers",
         [&](PassBuilder& pass) {
             pass.depth(lifted, Load::clear);
-            pass.sample(lent(samples.depth, "depth"));
-            pass.sample(samples.position);
-            pass.sample(samples.normal);
-            for (const BufferHandle read : {input.handles.positions, buffers.edges, buffers.sides}) {
-                pass.storage_read(read);
-            }
+            inputs.declare(pass);
             pass.indirect(buffers.draws);
         },
-        [samples, buffers, handles = input.handles](Recorder& r) {
+        [inputs, draws = buffers.draws](Recorder& r) {
             // Take the view samples' depth bit for bit, then lift what touches an edge before the side that hangs there.
-            r.bind(receiver_pipeline());
-            r.set("depth", samples.depth);
+            r.bind(receiver_pipeline(inputs));
+            inputs.set(r);
             r.draw(3);
-            r.bind(border_pipeline());
-            set_inputs(r, buffers, handles);
-            r.set("position_ws", samples.position);
-            r.set("normal_ws", samples.normal);
-            r.draw_indirect(buffers.draws, 0);
+            r.bind(border_pipeline(inputs));
+            r.draw_indirect(draws, strips_draw * sizeof(std::uint32_t));
         });
     return lifted;
 }
@@ -216,25 +203,38 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
                                                                 .format = VK_FORMAT_R32_SFLOAT,
                                                                 .width = input.samples.width,
                                                                 .height = input.samples.height});
+    ShaderInputs inputs = side_inputs(input, buffers);
+    inputs.buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
+        .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
+        .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);
     input.graph.add_pass(
         "volumes: counts",
         [&](PassBuilder& pass) {
             pass.color(counts, Load::clear);
             pass.depth_read_only(receivers);
-            for (const BufferHandle read : {input.handles.positions, input.handles.indices, buffers.edges,
-                                            buffers.sides, buffers.caps, buffers.owners}) {
-                pass.storage_read(read);
-            }
+            inputs.declare(pass);
+            pass.vertices(input.handles.positions);
+            pass.indices(buffers.indices);
             pass.indirect(buffers.draws);
         },
-        [buffers, handles = input.handles](Recorder& r) {
-            r.bind(volume_pipeline("volume-side.vert", side_text, VK_COMPARE_OP_LESS_OR_EQUAL, false));
-            set_inputs(r, buffers, handles);
-            r.draw_indirect(buffers.draws, 0);
-            for (const unsigned list : {0U, 1U, 2U, 3U}) {
-                r.bind(cap_pipeline(list >= 2, list % 2 == 1));
-                set_inputs(r, buffers, handles);
-                r.draw_indirect(buffers.draws, (list + 1) * sizeof(VkDrawIndirectCommand));
+        [inputs, buffers, positions = input.handles.positions](Recorder& r) {
+            const auto at = [](std::uint32_t word) { return word * sizeof(std::uint32_t); };
+            r.bind(
+                count_pipeline("volume-side.vert", with(inputs, side_text), VK_COMPARE_OP_LESS_OR_EQUAL, false, false));
+            inputs.set(r);
+            r.draw_indirect(buffers.draws, at(sides_draw));
+            r.vertex_buffer(positions);
+            r.index_buffer(buffers.indices);
+            for (const bool turned : {false, true}) {
+                r.bind(opaque_pipeline(with(inputs, opaque_text), turned, false));
+                r.draw_indexed_indirect(buffers.draws, at(opaque_draw + (turned ? 5 : 0)));
+                if (gn_volumes_has_far_cap(buffers.frame)) {
+                    r.bind(opaque_pipeline(with(inputs, opaque_text), turned, true));
+                    r.draw_indexed_indirect(buffers.draws, at(opaque_draw + (turned ? 5 : 0)));
+                }
+                r.bind(count_pipeline("volume-masked.vert", with(inputs, masked_text), VK_COMPARE_OP_LESS_OR_EQUAL,
+                                      turned, false));
+                r.draw_indirect(buffers.draws, at(masked_draw + (turned ? 4 : 0)));
             }
         });
     return counts;
@@ -244,20 +244,20 @@ Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
     const ViewSamples& samples = input.samples;
     const TextureHandle image = input.graph.create(TextureDesc{
         .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, samples);
+    inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "counts", counts);
+    inputs.constant("GnLight", "light", input.whole_light().shape);
+    const std::string text = "#include \"shadow/scene/light.h\"\n" + inputs.text() + resolve_text;
     input.graph.add_pass(
         "volumes: resolve",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
-            pass.sample(counts);
-            pass.sample(samples.position);
-            pass.sample(samples.normal);
+            inputs.declare(pass);
         },
-        [samples, counts, light = input.whole_light().shape](Recorder& r) {
-            r.bind(fullscreen({ShaderKind::fragment, "volume-resolve.frag", resolve_text}));
-            r.set("counts", counts);
-            r.set_value("u", light);
-            r.set("position_ws", samples.position);
-            r.set("normal_ws", samples.normal);
+        [inputs, text](Recorder& r) {
+            r.bind(fullscreen({ShaderKind::fragment, "volume-resolve.frag", text}));
+            inputs.set(r);
             r.draw(3);
         });
     return {image};

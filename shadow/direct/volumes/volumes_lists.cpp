@@ -2,6 +2,7 @@
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
 // [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
+#include "gpu/shader_inputs.h"
 #include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/scene/casting.h"
@@ -14,34 +15,23 @@ namespace gn {
 namespace {
 
 constexpr const char* facing_text = R"(
-#ifdef GN_DOUBLE
-#define GN_VOLUMES_DOUBLE
-#endif
-#include "shadow/direct/volumes/volumes.glsl"
 layout(local_size_x = 64) in;
-layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
-layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 2, scalar) readonly buffer Indices { uint indices[]; };
-layout(binding = 3, scalar) readonly buffer Owners { uint owners[]; };
-layout(binding = 4, scalar) readonly buffer Forms { uint forms[]; };
-layout(binding = 5, scalar) writeonly buffer Multiplicity { int multiplicity[]; };
-layout(binding = 6, scalar) writeonly buffer Caps { uint caps[]; };
-layout(binding = 7, scalar) buffer Draws { uint draws[]; };
 void main() {
     uint t = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-    // One instance of each of the five draws.
-    if (t < 5u) {
-        draws[4u * t + 1u] = 1u;
+    // One instance of each draw; the second list of opaque caps begins where the first must end.
+    if (t == 0u) {
+        draws[1] = draws[5] = draws[9] = draws[13] = draws[17] = draws[22] = 1u;
+        draws[23] = 3u * u.frame.opaque_triangles;
     }
     if (t >= u.frame.triangles) {
         return;
     }
     // Turn the triangle to the light.
     uint owner = owners[t];
+    uvec3 corners = uvec3(indices[3u * t], indices[3u * t + 1u], indices[3u * t + 2u]);
     int m = 0;
     if (owner != ~0u) {
-        int side = gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]],
-                                   positions[indices[3u * t + 2u]], u.frame.light_ws);
+        int side = gn_volumes_side(positions[corners.x], positions[corners.y], positions[corners.z], u.frame.light_ws);
         side = (owner & 2u) != 0u ? max(side, 0) : side;
         m = gn_volumes_multiplicity(side, int(forms[owner >> 3]));
     }
@@ -49,26 +39,23 @@ void main() {
     if (m == 0) {
         return;
     }
-    // List its caps: those turned as wound from the front of the list, the others from its end.
-    bool compared = (owner & 1u) != 0u;
-    uint first = compared ? u.frame.opaque_triangles : 0u;
-    uint end = compared ? u.frame.triangles : u.frame.opaque_triangles;
-    uint command = 1u + (compared ? 2u : 0u) + (m < 0 ? 1u : 0u);
-    uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
-    uint slot = atomicAdd(draws[4u * command], corners) / corners;
-    caps[m > 0 ? first + slot : end - 1u - slot] = t;
+    if ((owner & 1u) == 0u) {
+        // List an opaque cap's vertices.
+        uint first = atomicAdd(draws[m < 0 ? 21 : 16], 3u) + (m < 0 ? 3u * u.frame.opaque_triangles : 0u);
+        cap_indices[first] = corners.x;
+        cap_indices[first + 1u] = corners.y;
+        cap_indices[first + 2u] = corners.z;
+        return;
+    }
+    // List a cap that is compared: those turned as wound from the front of the list, the others from its end.
+    uint each = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
+    uint slot = atomicAdd(draws[m < 0 ? 12 : 8], each) / each;
+    caps[m > 0 ? u.frame.opaque_triangles + slot : u.frame.triangles - 1u - slot] = t;
 }
 )";
 
 constexpr const char* silhouette_text = R"(
-#include "shadow/direct/volumes/volumes.h"
 layout(local_size_x = 64) in;
-layout(binding = 0, scalar) uniform Frame { GnVolumesFrame frame; } u;
-layout(binding = 1, scalar) readonly buffer First { uint first[]; };
-layout(binding = 2, scalar) readonly buffer Around { uint around[]; };
-layout(binding = 3, scalar) readonly buffer Multiplicity { int multiplicity[]; };
-layout(binding = 4, scalar) writeonly buffer Sides { uint sides[]; };
-layout(binding = 5, scalar) buffer Draws { uint draws[]; };
 void main() {
     uint edge = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (edge >= u.frame.edges) {
@@ -86,7 +73,8 @@ void main() {
     if (count == 0u) {
         return;
     }
-    uint slot = atomicAdd(draws[0], count * 6u) / 6u;
+    uint slot = atomicAdd(draws[4], count * 6u) / 6u;
+    atomicAdd(draws[0], count * gn_volumes_corners(u.frame));
     for (uint i = 0u; i < count; ++i) {
         sides[slot + i] = edge * 2u + (sum < 0 ? 1u : 0u);
     }
@@ -96,6 +84,26 @@ void main() {
 void dispatch_all(Recorder& r, std::uint32_t count) {
     const std::uint32_t groups = std::max((count + 63) / 64, 1U), across = std::min(groups, 32768U);
     r.dispatch(across, (groups + across - 1) / across);
+}
+
+/// A pass with an invocation for each of `count` things.
+struct ListPass {
+    const char* name;
+    bool doubles;
+    const char* text;
+};
+void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderInputs& inputs, std::uint32_t count) {
+    const ComputeDesc shader{{ShaderKind::compute, pass.name,
+                              std::string(pass.doubles ? "#define GN_VOLUMES_DOUBLE\n" : "") +
+                                  "#include \"shadow/direct/volumes/volumes.glsl\"\n" + inputs.text() + pass.text},
+                             {}};
+    input.graph.add_pass(
+        pass.name, [&](PassBuilder& builder) { inputs.declare(builder); },
+        [shader, inputs, count](Recorder& r) {
+            r.bind(shader);
+            inputs.set(r);
+            dispatch_all(r, count);
+        });
 }
 
 template <class T>
@@ -198,8 +206,10 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
     const VkDeviceSize triangles = buffers.frame.triangles;
     buffers.multiplicity = graph.create(BufferDesc{.name = "volume multiplicities", .bytes = triangles * 4});
     buffers.caps = graph.create(BufferDesc{.name = "volume caps", .bytes = triangles * 4});
+    buffers.indices =
+        graph.create(BufferDesc{.name = "volume cap indices", .bytes = VkDeviceSize{scene.opaque_triangles} * 24});
     buffers.sides = graph.create(BufferDesc{.name = "volume sides", .bytes = scene.list.around.size() * 4});
-    buffers.draws = graph.create(BufferDesc{.name = "volume draws", .bytes = 5 * sizeof(VkDrawIndirectCommand)});
+    buffers.draws = graph.create(BufferDesc{.name = "volume draws", .bytes = draw_words * sizeof(std::uint32_t)});
     return buffers;
 }
 
@@ -207,52 +217,29 @@ void add_facing(const FrameInput& input, const VolumeBuffers& buffers) {
     input.graph.add_pass(
         "volumes: empty lists", [&](PassBuilder& pass) { pass.copy_to(buffers.draws); },
         [draws = buffers.draws](Recorder& r) { r.fill(draws, 0); });
-    const std::string text =
-        std::string(input.device.has(Feature::shader_float64) ? "#define GN_DOUBLE\n" : "") + facing_text;
-    input.graph.add_pass(
-        "volumes: facing",
-        [&](PassBuilder& pass) {
-            for (const BufferHandle read : {input.handles.positions, input.handles.indices, buffers.owners}) {
-                pass.storage_read(read);
-            }
-            for (const BufferHandle write : {buffers.multiplicity, buffers.caps, buffers.draws}) {
-                pass.storage_write(write);
-            }
-        },
-        [buffers, handles = input.handles, text](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "volume-facing.comp", text}});
-            r.set_value("u", buffers.frame);
-            r.set("Positions", handles.positions);
-            r.set("Indices", handles.indices);
-            r.set("Owners", buffers.owners);
-            r.set_bytes("Forms", std::as_bytes(std::span(buffers.forms)));
-            r.set("Multiplicity", buffers.multiplicity);
-            r.set("Caps", buffers.caps);
-            r.set("Draws", buffers.draws);
-            dispatch_all(r, buffers.frame.triangles);
-        });
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
+        .buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
+        .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners)
+        .block("readonly buffer", "Forms", "uint forms[];", std::as_bytes(std::span(buffers.forms)))
+        .buffer("writeonly buffer", "Multiplicity", "int multiplicity[];", buffers.multiplicity)
+        .buffer("writeonly buffer", "Caps", "uint caps[];", buffers.caps)
+        .buffer("writeonly buffer", "CapIndices", "uint cap_indices[];", buffers.indices)
+        .buffer("buffer", "Draws", "uint draws[];", buffers.draws)
+        .constant("GnVolumesFrame", "frame", buffers.frame);
+    add_list_pass(input, {"volumes: facing", input.device.has(Feature::shader_float64), facing_text}, inputs,
+                  buffers.frame.triangles);
 }
 
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers) {
-    input.graph.add_pass(
-        "volumes: silhouettes",
-        [&](PassBuilder& pass) {
-            for (const BufferHandle read : {buffers.first, buffers.around, buffers.multiplicity}) {
-                pass.storage_read(read);
-            }
-            pass.storage_write(buffers.sides);
-            pass.storage_write(buffers.draws);
-        },
-        [buffers](Recorder& r) {
-            r.bind(ComputeDesc{.shader = {ShaderKind::compute, "volume-silhouettes.comp", silhouette_text}});
-            r.set_value("u", buffers.frame);
-            r.set("First", buffers.first);
-            r.set("Around", buffers.around);
-            r.set("Multiplicity", buffers.multiplicity);
-            r.set("Sides", buffers.sides);
-            r.set("Draws", buffers.draws);
-            dispatch_all(r, buffers.frame.edges);
-        });
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "First", "uint first[];", buffers.first)
+        .buffer("readonly buffer", "Around", "uint around[];", buffers.around)
+        .buffer("readonly buffer", "Multiplicity", "int multiplicity[];", buffers.multiplicity)
+        .buffer("writeonly buffer", "Sides", "uint sides[];", buffers.sides)
+        .buffer("buffer", "Draws", "uint draws[];", buffers.draws)
+        .constant("GnVolumesFrame", "frame", buffers.frame);
+    add_list_pass(input, {"volumes: silhouettes", false, silhouette_text}, inputs, buffers.frame.edges);
 }
 
 }  // namespace gn

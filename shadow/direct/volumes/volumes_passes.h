@@ -19,6 +19,16 @@ struct EdgeBuffers {
         owners;  ///< per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when either; ~0: it casts nothing
 };
 
+/// The draws of a light, in words of the buffer `draws`: VkDrawIndirectCommands of sides, of their strips, and of the masked
+/// caps by sign; VkDrawIndexedIndirectCommands of the opaque caps by sign.
+enum VolumeDraw : std::uint32_t {
+    sides_draw = 0,
+    strips_draw = 4,
+    masked_draw = 8,   ///< and 12
+    opaque_draw = 16,  ///< and 21
+    draw_words = 26
+};
+
 struct VolumeBuffers {
     std::shared_ptr<const EdgeBuffers> scene;  ///< kept alive by the passes that use it
     std::vector<std::uint32_t> forms;          ///< per component: GN_VOLUMES_*
@@ -26,9 +36,10 @@ struct VolumeBuffers {
     BufferHandle edges, first, around, owners;
     BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1
     BufferHandle
-        caps;  ///< lists of triangles, each from both ends by sign: opaque ones, then masked and one-sided ones
-    BufferHandle sides;  ///< list of edge * 2 + 1 when turned over
-    BufferHandle draws;  ///< VkDrawIndirectCommand: sides, then the caps opaque +, opaque -, masked +, masked -
+        caps;  ///< list of masked and one-sided triangles, from both ends by sign, behind opaque_triangles slots
+    BufferHandle indices;  ///< of the vertices of opaque caps: a list of triangles for either sign
+    BufferHandle sides;    ///< list of edge * 2 + 1 when turned over
+    BufferHandle draws;    ///< VolumeDraw
 };
 
 /// The scene's edges (built once a geometry, uploaded once a graph) and this light's lists.
