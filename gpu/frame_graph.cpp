@@ -172,6 +172,29 @@ BufferHandle FrameGraph::import(const Buffer& buffer) {
     return {static_cast<std::uint32_t>(buffers.size() - 1)};
 }
 
+bool FrameGraph::imported(TextureHandle texture) const {
+    GN_CHECK(texture.index < impl_->imports.textures.size());
+    return impl_->imports.textures[texture.index] != nullptr;
+}
+
+void FrameGraph::place(TextureHandle texture, const std::function<Texture2D&(const TextureDesc&)>& give) {
+    GN_CHECK(!imported(texture));
+    DeclaredTexture& declared = impl_->declaration.textures[texture.index];
+    TextureDesc desc = declared.desc;
+    desc.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
+    for (const DeclaredPass& pass : impl_->declaration.passes) {
+        for (const Use& use : pass.uses) {
+            desc.usage |= use.texture && use.resource == texture.index ? usage_of(use.kind) : 0;
+        }
+    }
+    Texture2D& given = give(desc);
+    declared.desc = given.desc();
+    declared.imported = true;
+    declared.initial = given.layouts;
+    impl_->imports.textures[texture.index] = &given;
+    impl_->stale = true;
+}
+
 const TextureDesc& FrameGraph::desc(TextureHandle texture) const {
     GN_CHECK(texture.index < impl_->declaration.textures.size());
     return impl_->declaration.textures[texture.index].desc;

@@ -184,6 +184,10 @@ class FrameGraph {
     BufferHandle create(const BufferDesc& desc);
     TextureHandle import(Texture2D& texture);  ///< must outlive the graph
     BufferHandle import(const Buffer& buffer);
+    [[nodiscard]] bool imported(TextureHandle texture) const;
+    /// Lets a transient texture live on in one of the caller's, which `give` returns for its description with the uses
+    /// declared so far and sampling; it must outlive the graph.
+    void place(TextureHandle texture, const std::function<Texture2D&(const TextureDesc&)>& give);
     [[nodiscard]] const TextureDesc& desc(TextureHandle texture) const;
     [[nodiscard]] const BufferDesc& desc(BufferHandle buffer) const;
 

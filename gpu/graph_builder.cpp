@@ -10,18 +10,6 @@ bool is_attachment(UseKind kind) {
     return kind == UseKind::color || kind == UseKind::depth || kind == UseKind::depth_read_only;
 }
 
-VkImageUsageFlags usage_needed(UseKind kind) {
-    switch (kind) {
-        case UseKind::color: return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-        case UseKind::depth:
-        case UseKind::depth_read_only: return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-        case UseKind::sample: return VK_IMAGE_USAGE_SAMPLED_BIT;
-        case UseKind::storage_read:
-        case UseKind::storage_write: return VK_IMAGE_USAGE_STORAGE_BIT;
-        default: return 0;
-    }
-}
-
 struct Shape {
     std::uint32_t width, height, layers, samples;
     bool operator==(const Shape&) const = default;
@@ -102,7 +90,7 @@ void DeclaredPassBuilder::add(UseKind kind, TextureHandle texture, Range range, 
     use.resource = texture.index;
     use.range = {range.mip, std::min(range.mips, desc.mips - range.mip), range.layer,
                  std::min(range.layers, desc.layers - range.layer)};
-    if (const VkImageUsageFlags needed = usage_needed(kind); declared.imported && (desc.usage & needed) != needed) {
+    if (const VkImageUsageFlags needed = usage_of(kind); declared.imported && (desc.usage & needed) != needed) {
         fail("pass '{}' uses the imported texture '{}' as {}, but it was made without that usage", pass_.name,
              desc.name, use_name(kind));
     }

@@ -28,6 +28,8 @@ enum class UseKind {
     copy_to,
 };
 std::string_view use_name(UseKind kind);
+/// What an image must be made for to be used so.
+VkImageUsageFlags usage_of(UseKind kind);
 
 /// One port of a pass.
 struct Use {

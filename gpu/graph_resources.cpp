@@ -8,18 +8,6 @@
 namespace gn {
 namespace {
 
-VkImageUsageFlags usage_of(UseKind kind) {
-    switch (kind) {
-        case UseKind::color: return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-        case UseKind::depth:
-        case UseKind::depth_read_only: return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-        case UseKind::sample: return VK_IMAGE_USAGE_SAMPLED_BIT;
-        case UseKind::storage_read:
-        case UseKind::storage_write: return VK_IMAGE_USAGE_STORAGE_BIT;
-        default: return 0;
-    }
-}
-
 constexpr VkBufferUsageFlags transient_buffer_usage =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |

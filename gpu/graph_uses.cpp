@@ -24,6 +24,19 @@ AttachmentFormats attachment_formats(const GraphDeclaration& declaration, const 
     }
     return formats;
 }
+
+VkImageUsageFlags usage_of(UseKind kind) {
+    switch (kind) {
+        case UseKind::color: return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        case UseKind::depth:
+        case UseKind::depth_read_only: return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+        case UseKind::sample: return VK_IMAGE_USAGE_SAMPLED_BIT;
+        case UseKind::storage_read:
+        case UseKind::storage_write: return VK_IMAGE_USAGE_STORAGE_BIT;
+        default: return 0;
+    }
+}
+
 namespace {
 
 constexpr VkPipelineStageFlags2 depth_stages =

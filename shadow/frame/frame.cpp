@@ -2,6 +2,7 @@
 // The frame as a table of contents: one call a stage, in flow order.
 #include "shadow/frame/frame.h"
 
+#include "shadow/casters/kept_map.h"
 #include "shadow/frame/map_memory.h"
 #include "shadow/light/weighted.h"
 #include "shadow/map/derived.h"
@@ -30,13 +31,19 @@ FrameInput seen_by(const FrameInput& input, const ViewSamples& samples) {
     return other;
 }
 
-/// placement -> map -> lookup.
-Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
-    const LightViews views = place_views(input, recipe);
+/// The map and what is made of it.
+ShadowMap add_map(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     ShadowMap map = recipe.map->add_map(input, recipe, views);
     map.part = recipe.map;
     add_derived(input, recipe, views, map);
     check_map_memory(input, recipe, map.texture());
+    return map;
+}
+
+/// placement -> map -> lookup.
+Visibility add_mapped(const FrameInput& input, const Recipe& recipe) {
+    const LightViews views = place_views(input, recipe);
+    const ShadowMap map = add_kept_map(input, recipe, views, [&] { return add_map(input, recipe, views); });
     const FrameInput looked = input.few != nullptr ? seen_by(input, *input.few) : input;
     return recipe.lookup->add_lookup != nullptr ? recipe.lookup->add_lookup(looked, recipe, views, map)
                                                 : add_resolve(looked, recipe, views, map);

@@ -5,9 +5,9 @@
 // Departs from it: the kept texture wraps around instead of being shifted, so that nothing is copied and every texel of
 // the grid is always rasterized at the same place, to the same bits.
 #include "gpu/hash.h"
+#include "shadow/casters/kept_map.h"
 #include "shadow/frame/history.h"
 #include "shadow/placement/cascades/cascade_views.h"
-#include "shadow/scene/casting.h"
 
 #include <algorithm>
 #include <limits>
@@ -28,17 +28,14 @@ struct KeptState {
     Fingerprint casting;        ///< of what the scene told of it
 };
 
-/// What casts, and how, that is told by the scene and not by its buffers; and what the map makes of it.
-Fingerprint casting_of(const Scene& scene, const Light& light, const Recipe& recipe) {
+/// What the scene and the map part tell of what is drawn.
+Fingerprint drawn_of(const Scene& scene, const Light& light, const Recipe& recipe) {
+    const Fingerprint casting = casting_of(scene, light);
     Hasher hasher;
+    hasher.value(casting.low).value(casting.high);
     if (recipe.map != nullptr) {
         const std::span<const std::byte> params = recipe.block(*recipe.map).bytes();
         hasher.bytes(params.data(), params.size());
-    }
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const Material& material = scene.materials[static_cast<std::size_t>(scene.objects[i].material)];
-        hasher.value(casts(scene, i, &light)).value(material.double_sided).value(material.alpha_mode);
-        hasher.value(material.alpha_cutoff).value(material.base_color.a).value(material.base_color_texture);
     }
     return hasher.finish();
 }
@@ -144,7 +141,7 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
     const std::string name = "cascades of " + kept.name;
     const auto* before = input.history->before<KeptState>(name);
     KeptState state = before != nullptr ? *before : KeptState{};
-    const Fingerprint casting = casting_of(input.scene, input.light(), recipe);
+    const Fingerprint casting = drawn_of(input.scene, input.light(), recipe);
     const std::optional<std::vector<Box>> touched_ws = input.handles.touched_since(state.version);
     if (!touched_ws || state.casting != casting || state.cascades.size() != windows.size()) {
         state = {std::vector<Kept>(windows.size()), 0, casting};
