@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/performance/bench.h"
 
+#include "shadow/frame/history.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -31,38 +33,63 @@ void Bench::print_head() const {
     std::printf("Device: %s (%s)\n", device_->info().name.c_str(), device_->info().driver.c_str());
 }
 
+namespace {
+
+/// The least sum over a frame's timed runs.
+double least_of(const FrameResult& frame, const std::vector<std::string>& names) {
+    double least = never;
+    for (std::size_t run = 0; run < frame.pass_ms.front().size(); ++run) {
+        double ms = 0;
+        for (std::size_t pass = 0; pass < frame.statistics.passes.size(); ++pass) {
+            ms += named(names, frame.statistics.passes[pass]) ? frame.pass_ms[pass][run] : 0;
+        }
+        least = std::min(least, ms);
+    }
+    return least;
+}
+
+FrameOptions timed_options(const Bench& bench, int light) {
+    return {.width = bench.size().x,
+            .height = bench.size().y,
+            .repeat = bench.repeats(),
+            .only_light = light,
+            .picture = false};
+}
+
+}  // namespace
+
 Timed passes(Bench& bench, std::string scene, Recipe recipe, std::vector<std::string> names, int light) {
     return [&bench, scene = std::move(scene), recipe = std::move(recipe), names = std::move(names), light] {
         SceneGpu& gpu = bench.scene(scene);
-        const FrameResult frame = render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe,
-                                               {.width = bench.size().x,
-                                                .height = bench.size().y,
-                                                .repeat = bench.repeats(),
-                                                .only_light = light,
-                                                .picture = false});
-        double least = never;
-        for (std::size_t run = 0; run < frame.pass_ms.front().size(); ++run) {
-            double ms = 0;
-            for (std::size_t pass = 0; pass < frame.statistics.passes.size(); ++pass) {
-                ms += named(names, frame.statistics.passes[pass]) ? frame.pass_ms[pass][run] : 0;
-            }
-            least = std::min(least, ms);
-        }
-        return least;
+        return least_of(render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe, timed_options(bench, light)),
+                        names);
     };
 }
 
-Timed graph_pass(Bench& bench, std::function<void(FrameGraph&)> build, std::string name) {
-    return [&bench, build = std::move(build), name = std::move(name)] {
+Timed still_passes(Bench& bench, std::string scene, Recipe recipe, int light) {
+    return [&bench, scene = std::move(scene), recipe = std::move(recipe), light] {
+        SceneGpu& gpu = bench.scene(scene);
+        History history(bench.device());
+        FrameOptions options = timed_options(bench, light);
+        options.history = &history;
+        static_cast<void>(render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe, options));
+        return least_of(render_frame(bench.device(), gpu, gpu.scene->cameras[0], recipe, options), {});
+    };
+}
+
+Timed graph_passes(Bench& bench, std::function<void(FrameGraph&)> build, std::vector<std::string> names) {
+    return [&bench, build = std::move(build), names = std::move(names)] {
         FrameGraph graph(bench.device());
         build(graph);
         graph.execute(false);
         double least = never;
         for (int run = 0; run < bench.repeats(); ++run) {
             graph.execute(true);
+            double ms = 0;
             for (const PassTime& pass : graph.statistics().passes) {
-                least = pass.name == name ? std::min(least, pass.ms) : least;
+                ms += named(names, pass) ? pass.ms : 0;
             }
+            least = std::min(least, ms);
         }
         return least;
     };

@@ -38,8 +38,10 @@ using Timed = std::function<double()>;
 
 /// Passes of these names of one light's shadow from the scene's first camera; without names all of the shadow's passes.
 Timed passes(Bench& bench, std::string scene, Recipe recipe, std::vector<std::string> names = {}, int light = 0);
-/// A graph of one's own; `build` keeps what it needs alive.
-Timed graph_pass(Bench& bench, std::function<void(FrameGraph&)> build, std::string name);
+/// The same of a frame after one that was alike: what a sequence of still frames costs.
+Timed still_passes(Bench& bench, std::string scene, Recipe recipe, int light);
+/// Passes of a graph of one's own; `build` keeps what it needs alive.
+Timed graph_passes(Bench& bench, std::function<void(FrameGraph&)> build, std::vector<std::string> names);
 
 void print_title(const char* title);
 /// The least time of `a` over the least of `b`, taken in turns; `copies` counts b more than once.

@@ -204,14 +204,21 @@ void main() {
         });
 }
 
-Timed forward(Bench& bench, const Peer& peer, Kernel kernel) {
-    return graph_pass(
-        bench, [&bench, peer, kernel](FrameGraph& graph) { build_forward(bench, peer, kernel, graph); }, "inline");
+Timed forward(Bench& bench, const Peer& peer, Kernel kernel, std::vector<std::string> names = {"inline"}) {
+    return graph_passes(
+        bench, [&bench, peer, kernel](FrameGraph& graph) { build_forward(bench, peer, kernel, graph); },
+        std::move(names));
 }
 
 void row(Bench& bench, const std::string& what, const Peer& peer) {
     const Timed ours = passes(bench, peer.scene, load_recipe(peer.recipe), {"lookup"}, peer.light);
     print_over_added(what, ours, forward(bench, peer, peer.kernel), forward(bench, peer, Kernel::none));
+}
+
+/// A still frame, whose map is kept, over the peer that draws its map in every frame.
+void kept_row(Bench& bench, const std::string& what, const Peer& peer) {
+    print_over_added(what, still_passes(bench, peer.scene, load_recipe(peer.recipe), peer.light),
+                     forward(bench, peer, peer.kernel, {"map", "inline"}), forward(bench, peer, Kernel::none));
 }
 
 }  // namespace
@@ -229,11 +236,15 @@ void inlined(Bench& bench) {
         {"courtyard", "pcf,placement=cascades,cascades.select=distance,cascades.transition=none,pcf.kernel=3x3", 0,
          Kernel::grid3, Views::cascades});
 
+    print_title("all passes of a still frame over what a forward pass and its map, drawn anew, add");
+    kept_row(bench, "spot, one map, hard", {"courtyard", "hard,placement=fit", 2, Kernel::hard, Views::one});
+    kept_row(bench, "point, cube, hard", {"courtyard", "hard,placement=cube", 1, Kernel::hard, Views::cube});
+
     print_title("over a pass that reads depth and writes V");
     const auto floor = [&bench](bool dispatched) {
-        return graph_pass(
+        return graph_passes(
             bench, [&bench, dispatched](FrameGraph& graph) { build_floor(bench, "courtyard", dispatched, graph); },
-            "floor");
+            {"floor"});
     };
     const Timed lesser = [by_fragments = floor(false), by_dispatch = floor(true)] {
         return std::min(by_fragments(), by_dispatch());

@@ -108,8 +108,7 @@ void placements(Bench& bench) {
     print_title("map pass over a depth-only pass of the same triangles");
     const Recipe hard = load_recipe("hard");
     print_ratio("courtyard, the sun", passes(bench, "courtyard", hard, {"map"}),
-                graph_pass(
-                    bench, [&](FrameGraph& graph) { build_depth_only(bench, hard, graph); }, "depth only"));
+                graph_passes(bench, [&](FrameGraph& graph) { build_depth_only(bench, hard, graph); }, {"depth only"}));
 }
 
 }  // namespace gn::performance
