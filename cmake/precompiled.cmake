@@ -19,7 +19,7 @@ endfunction()
 
 if(GNOMON_PRECOMPILED)
   gn_precompile(gn_precompiled_sources)
-  gn_precompile(gn_precompiled_suites <gtest/gtest.h>)
+  gn_precompile(gn_precompiled_suites <gtest/gtest.h> ${CMAKE_SOURCE_DIR}/tests/printers.h)
   target_link_libraries(gn_precompiled_suites PRIVATE GTest::gtest)
   target_compile_definitions(gn_precompiled_suites PRIVATE _GLIBCXX_ASSERTIONS)
 endif()

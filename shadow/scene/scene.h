@@ -164,3 +164,11 @@ mat4 vs_from_ws(const Camera& camera);
 mat4 cs_from_vs(const Camera& camera, float aspect);
 
 }  // namespace gn
+
+// Compiled once, in scene.cpp: nearly every source makes, copies or ends a scene.
+extern template class std::vector<gn::Light>;
+extern template class std::vector<gn::Camera>;
+extern template class std::vector<gn::CameraPath>;
+extern template class std::vector<gn::Material>;
+extern template class std::vector<gn::Texture>;
+extern template class std::vector<gn::Object>;

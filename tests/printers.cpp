@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "tests/printers.h"
+
+GN_PRINTERS()

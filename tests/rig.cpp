@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "tests/rig.h"
+
+namespace gn::test {
+
+Device& device() {
+    static const std::unique_ptr<Device> instance = Device::create({.validation = true});
+    return *instance;
+}
+
+ValidationGuard::~ValidationGuard() {
+    for (std::size_t i = before; i < device().messages().size(); ++i) {
+        ADD_FAILURE() << "validation: " << device().messages()[i];
+    }
+}
+
+Comparison::Comparison(Scene given) : scene(std::move(given)) {}
+Comparison::Comparison(Comparison&&) noexcept = default;
+Comparison::~Comparison() = default;
+
+Comparison compare(Scene scene, const std::string& recipe, const ComparisonOptions& options) {
+    const ValidationGuard guard;
+    Comparison c(std::move(scene));
+    SceneGpu gpu = upload_scene(device(), c.scene);
+    c.frame = render_frame(device(), gpu, c.scene.camera(options.view), load_recipe(recipe),
+                           {.width = options.width, .height = options.height, .only_light = 0, .picture = false});
+    EXPECT_EQ(c.frame.refused.front(), "");
+    c.truth = Truth(c.scene).trace(c.frame.samples.position_ws, c.frame.samples.normal_ws, c.scene.lights.front(),
+                                   {.samples = options.samples});
+    c.errors = visibility_errors(c.frame.visibility.front().values, c.truth.visibility, c.truth.counted,
+                                 static_cast<int>(options.width), static_cast<int>(options.height));
+    // What is asserted of a comparison is asserted of a good part of the picture.
+    EXPECT_GT(c.errors.samples, c.visibility().values.size() / 50) << c.scene.name << " with " << recipe;
+    return c;
+}
+
+Comparison compare(const std::string& scene, const std::string& recipe, const ComparisonOptions& options) {
+    return compare(load_scene(scene), recipe, options);
+}
+
+}  // namespace gn::test
