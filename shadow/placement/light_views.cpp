@@ -117,7 +117,7 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
     const dvec2 size = r.max - r.min;
     const double texel = std::max(size.x, size.y) / resolution;
     const double slack = 1e-4 * length_of(near, far) + 0.1 * texel;
-    near -= slack + static_cast<double>(guard.metres) + room_of(guard) * texel;
+    near -= slack + static_cast<double>(guard.metres + guard.before) + room_of(guard) * texel;
     far += slack;
     finish_view(view,
                 {dvec4(right * (2 / size.x), -(r.min.x + r.max.x) / size.x),
@@ -206,7 +206,8 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolut
     const dvec2 side = (r.max - r.min) / static_cast<double>(resolution);
     const double texel = std::max(side.x, side.y);
     far *= 1.001;
-    near = std::max(near * (1 - room_of(guard) * texel) - 1e-3 * (far - near), near_plane(far));
+    near *= 1 - room_of(guard) * texel;
+    near = std::max(near - 1e-3 * (far - near) - static_cast<double>(guard.before), near_plane(far));
     return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/recipe/guard.h"
 
+#include <algorithm>
+
 namespace gn {
 
 Guard guard_of(const FrameInput& input, const Recipe& recipe) {
@@ -15,6 +17,7 @@ Guard guard_of(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
             total.texels += guard.texels;
             total.metres += guard.metres;
             total.pixels += guard.pixels;
+            total.before = std::max(total.before, guard.before);
         }
     }
     total.texels += 1;  // the receiver's own texel and the bias's shift

@@ -39,6 +39,9 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 /// map. Views are not widened by pixels: no receiver lies beyond the picture, and lookups leave out what lies beyond a view.
 struct Guard {
     float texels = 0, metres = 0, pixels = 0;
+    /// Metres before the receivers, towards the light, within which the map says how far away casters are. Nearer to the light
+    /// they are clamped to a view's near plane: they cast, but nobody knows from where.
+    float before = 0;
 };
 
 /// Pixels of the view: every `step`-th in both directions, from `first` on.

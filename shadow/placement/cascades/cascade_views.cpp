@@ -100,7 +100,7 @@ Interval extent_of(const ConvexBody& body, dvec3 axis) {
 
 Interval with_slack(Interval depth, Guard guard, double texel, double rounding) {
     const double slack = 1e-4 * length_of(depth) + 0.1 * texel + rounding;
-    const double room = static_cast<double>(guard.metres) + room_of(guard) * texel;
+    const double room = static_cast<double>(guard.metres + guard.before) + room_of(guard) * texel;
     return {depth.near - slack - room, depth.far + slack};
 }
 
