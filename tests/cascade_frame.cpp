@@ -23,7 +23,7 @@ Scene with_hard_sun(const char* name) {
 }
 
 Rendered render(SceneGpu& gpu, const Camera& camera, const Camera& placed_by, const std::string& recipe_text,
-                       History* history) {
+                History* history) {
     const ValidationGuard guard;
     const Scene& scene = *gpu.scene;
     const Recipe recipe = load_recipe(recipe_text);

@@ -11,7 +11,7 @@ SceneBuilder::SceneBuilder() {
 }
 
 SceneBuilder& SceneBuilder::mesh(const std::vector<vec3>& corners, const std::vector<uvec3>& triangles, int material,
-                   const std::vector<vec2>& uvs) {
+                                 const std::vector<vec2>& uvs) {
     const auto base = static_cast<std::uint32_t>(scene_.positions_ws.size());
     Object object{.name = "object",
                   .first_triangle = static_cast<std::uint32_t>(scene_.triangles.size()),
@@ -195,8 +195,7 @@ Comparison judge(const Scene& scene, const FrameResult& frame, std::size_t light
     return result;
 }
 
-std::vector<Comparison> render_and_judge(const Scene& scene, const Recipe& recipe, uint width,
-                                                uint height) {
+std::vector<Comparison> render_and_judge(const Scene& scene, const Recipe& recipe, uint width, uint height) {
     Device& gpu = device();
     const std::size_t messages = gpu.messages().size();
     SceneGpu uploaded = upload_scene(gpu, scene);

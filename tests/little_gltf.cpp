@@ -5,7 +5,9 @@
 
 namespace gn::test {
 
-LittleGltf::LittleGltf() { material(R"("name":"ground")"); }
+LittleGltf::LittleGltf() {
+    material(R"("name":"ground")");
+}
 
 int LittleGltf::material(const std::string& members) {
     materials_.push_back("{" + members +
@@ -14,7 +16,7 @@ int LittleGltf::material(const std::string& members) {
 }
 
 void LittleGltf::add(const std::vector<vec3>& corners, int material, const std::string& node, const std::string& mesh,
-         const std::vector<vec4>& colors) {
+                     const std::vector<vec4>& colors) {
     std::vector<float> xyz;
     for (const vec3& p : corners) {
         xyz.insert(xyz.end(), {p.x, p.y, p.z});
@@ -35,8 +37,8 @@ void LittleGltf::light(const std::string& type, vec3 at, const std::string& rota
 }
 
 void LittleGltf::camera(vec3 at, float sine, float cosine) {
-    nodes_.push_back(fmt::format(R"({{"camera":0,"translation":[{},{},{}],"rotation":[{},0,0,{}]}})", at.x, at.y,
-                                 at.z, sine, cosine));
+    nodes_.push_back(fmt::format(R"({{"camera":0,"translation":[{},{},{}],"rotation":[{},0,0,{}]}})", at.x, at.y, at.z,
+                                 sine, cosine));
 }
 
 std::string LittleGltf::text() const {

@@ -3,8 +3,7 @@
 
 namespace gn::test {
 
-LightViews place(const Scene& scene, const std::string& text, uint width, uint height,
-                        const Camera* camera) {
+LightViews place(const Scene& scene, const std::string& text, uint width, uint height, const Camera* camera) {
     FrameGraph graph(device());
     const SceneHandles handles;
     const ViewSamples samples{

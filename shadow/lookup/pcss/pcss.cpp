@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer soft shadows, in the light's physical size, over any placement.
+//
+// Based on: Fernando. Percentage-Closer Soft Shadows. SIGGRAPH Sketches 2005. [Fer05]
+#include "shadow/lookup/pcss/pcss.h"
+
+#include "shadow/recipe/part.h"
+#include "shadow/recipe/recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gn {
+namespace {
+
+/// A caster's distance matters up to the light itself. How far penumbrae reach is known of suns: what the scene's height
+/// allows. Under lamps views that touch go on in each other where their placement crosses; else they are widened by the light's
+/// own size.
+Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
+    const auto params = recipe.of<GnPcssParams>("pcss");
+    const GnLight& shape = light.shape;
+    if (shape.kind != GN_LIGHT_DIRECTIONAL) {
+        const float size =
+            shape.kind == GN_LIGHT_RECTANGLE ? std::max(shape.half_size.x, shape.half_size.y) : shape.radius;
+        return {.texels = params.least + 1, .metres = size, .before = std::numeric_limits<float>::infinity()};
+    }
+    const float height = glm::dot(bounds_ws.extent(), glm::abs(vec3(shape.direction_ws)));
+    return {.texels = params.least + 1, .metres = std::tan(shape.angular_radius) * height, .before = height};
+}
+
+ParamTable rows() {
+    return param_table<GnPcssParams>({
+        GN_CHOICE(
+            GnPcssParams, blocker,
+            "Which depth the penumbra's width comes from, of all that hide the light: their mean, or the nearest to "
+            "the light, which gives the widest.",
+            "average", "nearest"),
+        GN_PARAM(GnPcssParams, search_taps, integer, 1, 128, "",
+                 "Taps of the search: fewer make widths jump from pixel to pixel."),
+        GN_PARAM(GnPcssParams, taps, integer, 1, 256, "", "Taps of the widest filter: less noise, cost grows with it."),
+        GN_PARAM(GnPcssParams, density, real, 0.1, 64, "per texel",
+                 "Taps for each texel of the filter's half width, up to `taps`: narrow penumbrae cost less."),
+        GN_PARAM(GnPcssParams, least, real, 0, 16, "texels",
+                 "Half width of the narrowest filter: below one the map's texels show at contacts."),
+        GN_PARAM(
+            GnPcssParams, early_out, boolean, 0, 1, "",
+            "Skips the search where the least and greatest depth of its region say that all of the light is seen, or "
+            "none: V stays the same."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_pcss() {
+    static const Part part = [] {
+        Part p;
+        p.id = "pcss";
+        p.stage = Stage::lookup;
+        p.title = "Percentage-closer soft shadows";
+        p.citation = "Fer05";
+        p.needs = {"depth", "min-max"};
+        p.sides = {{"blocker-distance", "m",
+                    "How far along the light's depth what hides a sample lies before it, on average."},
+                   {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."}};
+        p.params = rows();
+        p.params_type = "GnPcssParams";
+        p.glsl = "shadow/lookup/pcss/pcss.glsl";
+        p.guard = guard;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

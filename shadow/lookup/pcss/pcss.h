@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Parameters of percentage-closer soft shadows.
+#ifndef GN_SHADOW_LOOKUP_PCSS_H
+#define GN_SHADOW_LOOKUP_PCSS_H
+
+#include "base/shared.h"
+
+#define GN_PCSS_AVERAGE 0
+#define GN_PCSS_NEAREST 1
+
+struct GnPcssParams {
+    int blocker GN_DEFAULT(GN_PCSS_AVERAGE);
+    int search_taps GN_DEFAULT(16);
+    int taps GN_DEFAULT(32);
+    float density GN_DEFAULT(4.0f);
+    float least GN_DEFAULT(1.5f);
+    int early_out GN_DEFAULT(1);
+};
+
+#endif
