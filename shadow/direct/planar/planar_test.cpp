@@ -133,6 +133,7 @@ const Case cases[] = {
 class PlanarRendered : public testing::TestWithParam<Case> {};
 
 TEST_P(PlanarRendered, equals_the_traced_hard_shadow_on_flat_receivers) {
+    const test::ValidationGuard guard;
     const Scene scene = GetParam().make();
     // Every flat part of these scenes is a receiver; the loose triangles of the soup are left to their share.
     const Recipe recipe = direct_recipe(parts::direct_planar(), {{"planes", "16"}, {"min_area", "0.001"}});
@@ -140,7 +141,6 @@ TEST_P(PlanarRendered, equals_the_traced_hard_shadow_on_flat_receivers) {
     SceneGpu uploaded = upload_scene(device(), scene);
     const FrameResult frame = render_frame(device(), uploaded, scene.cameras.front(), recipe,
                                            {.width = 160, .height = 120, .picture = false});
-    EXPECT_TRUE(device().messages().empty()) << device().messages().front();
     std::size_t judged = 0, lit = 0, shadowed = 0;
     for (std::size_t light = 0; light < scene.lights.size(); ++light) {
         ASSERT_EQ(frame.refused[light], "");
