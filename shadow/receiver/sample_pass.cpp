@@ -71,7 +71,7 @@ GnBias applied_bias(const Recipe& recipe, const Light& light, const Box& bounds_
 }
 
 GnBias applied_bias(const FrameInput& input, const Recipe& recipe) {
-    return applied_bias(recipe, input.light(), input.scene.bounds_ws);
+    return applied_bias(recipe, input.light(), main_bounds(input));
 }
 
 void add_views(ShaderInputs& inputs, const LightViews& views) {
