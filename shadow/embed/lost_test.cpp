@@ -158,9 +158,9 @@ TEST_P(Lost, IsASentenceWhereASceneIsMeasured) {
         if (!set.ok()) {
             return set.why();
         }
-        // Blurs are dispatches: every kind of pipeline is made.
+        // Samples are reduced by dispatches: every kind of pipeline is made.
         return session.value()
-            .render(scene.cameras.front(), "vsm,resolution=64", {.width = 16, .height = 12, .repeat = 1})
+            .render(scene.cameras.front(), "sdsm,resolution=64", {.width = 16, .height = 12, .repeat = 1})
             .why();
     });
     EXPECT_EQ(failed > 0, GetParam() != "vkGetQueryPoolResults" && GetParam() != "vkCreateQueryPool")
