@@ -51,7 +51,7 @@ gn_precompiled(gn_rig TESTS)
 # The laws of parts are figures, which sanitizers do not look at: with them one suite draws every recipe at the ends of its
 # parameters, and those of what lives over frames and beyond the boundary run whole.
 if(GNOMON_SANITIZE)
-  set(shadow_test_globs tests/parameter_sweep_test.cpp)
+  set(shadow_test_globs tests/parameter_sweep_test.cpp tests/vulkan_calls_test.cpp)
   set(tested_folders shadow/frame shadow/embed shadow/recipe shadow/geometry)
   set(part_tests "")
 else()
