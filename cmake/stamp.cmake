@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -DROOT=... -DOUTPUT=... -P cmake/stamp.cmake: one number of all files that composed shaders may include, for folders
 # of baked shaders, which must not meet a library of other ones.
+cmake_minimum_required(VERSION 3.25)
 set(globs "")
 foreach(folder base gpu shadow)
   list(APPEND globs ${ROOT}/${folder}/*.glsl ${ROOT}/${folder}/*.h)
