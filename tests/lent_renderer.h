@@ -20,6 +20,17 @@ struct LentDevice {
     }
 };
 
+/// Records a frame, waits, and gives what the lights were refused for.
+inline std::vector<std::string> run(embed::Shadows& shadows, const embed::Frame& frame) {
+    std::vector<std::string> refused;
+    device().run([&](VkCommandBuffer commands) {
+        const auto recorded = shadows.record(commands, frame);
+        EXPECT_TRUE(recorded.ok()) << recorded.why();
+        refused = recorded.ok() ? recorded.value() : std::vector<std::string>{};
+    });
+    return refused;
+}
+
 class LentRenderer {
   public:
     LentRenderer(Scene given, uint width, uint height) : scene(std::move(given)), width_(width), height_(height) {

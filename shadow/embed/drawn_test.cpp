@@ -8,20 +8,11 @@ namespace {
 
 using test::device;
 using test::OwnDraws;
+using test::run;
 
 Result<Shadows> make(const std::string& recipe) {
     static const test::LentDevice lent;
     return Shadows::create({.device = lent.adopted(), .recipe = recipe});
-}
-
-std::vector<std::string> run(Shadows& shadows, const Frame& frame) {
-    std::vector<std::string> refused;
-    device().run([&](VkCommandBuffer commands) {
-        const auto recorded = shadows.record(commands, frame);
-        EXPECT_TRUE(recorded.ok()) << recorded.why();
-        refused = recorded.ok() ? recorded.value() : std::vector<std::string>{};
-    });
-    return refused;
 }
 
 /// The frame without any buffer.

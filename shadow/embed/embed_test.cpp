@@ -9,21 +9,11 @@ namespace gn::embed {
 namespace {
 
 using test::device;
+using test::run;
 
 Result<Shadows> make(const std::string& recipe, const ReceiverForm& form = {}, const Limits& limits = {}) {
     static const test::LentDevice lent;
     return Shadows::create({.device = lent.adopted(), .recipe = recipe, .limits = limits, .receivers = form});
-}
-
-/// Records a frame, waits, and gives what the light were refused for.
-std::vector<std::string> run(Shadows& shadows, const Frame& frame) {
-    std::vector<std::string> refused;
-    device().run([&](VkCommandBuffer commands) {
-        const auto recorded = shadows.record(commands, frame);
-        EXPECT_TRUE(recorded.ok()) << recorded.why();
-        refused = recorded.ok() ? recorded.value() : std::vector<std::string>{};
-    });
-    return refused;
 }
 
 struct Judged {

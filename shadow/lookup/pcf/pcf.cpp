@@ -38,7 +38,7 @@ std::vector<vec2> disc_of(const GnPcfParams& params) {
     }
     std::vector<vec2> points;
     for (int i = 0; i < params.taps; ++i) {
-        points.push_back(glsl::gn_pcf_vogel(i, params.taps, 0));
+        points.push_back(glsl::gn_vogel(i, params.taps, 0));
     }
     spread(points);
     return points;

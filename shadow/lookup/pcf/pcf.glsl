@@ -110,13 +110,6 @@ GN_FN vec2 gn_pcf_subpixel(int i) {
     return fract(vec2(0.75487767f, 0.56984029f) * float(i) + 0.5f) - 0.5f;
 }
 
-// Point i of n on a disc: the golden-angle spiral. [Vog79]
-GN_FN vec2 gn_pcf_vogel(int i, int n, float phase) {
-    float r = sqrt((float(i) + 0.5f) / float(n));
-    float angle = float(i) * 2.39996323f + phase;
-    return r * vec2(cos(angle), sin(angle));
-}
-
 // An angle per pixel.
 GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_ss); }
 
@@ -298,7 +291,7 @@ float gn_pcf_spiral(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcf
         vec4 x;
         vec4 y;
         for (int k = 0; k < 4; ++k) {
-            vec2 p = gn_pcf_vogel(i + k, taps, 0.0);
+            vec2 p = gn_vogel(i + k, taps, 0.0);
             x[k] = p.x;
             y[k] = p.y;
         }

@@ -159,7 +159,7 @@ TEST(Pcf, SpiralFillsTheDiscEvenly) {
         for (double edge = -0.9; edge < 1; edge += 0.1) {
             int inside = 0;
             for (int i = 0; i < taps; ++i) {
-                inside += gn_pcf_vogel(i, taps, 0.3F).x < static_cast<float>(edge) ? 1 : 0;
+                inside += gn_vogel(i, taps, 0.3F).x < static_cast<float>(edge) ? 1 : 0;
             }
             const double exact = 0.5 + (edge * std::sqrt(1 - edge * edge) + std::asin(edge)) / static_cast<double>(pi);
             worst = std::max(worst, std::abs(static_cast<double>(inside) / taps - exact));
@@ -177,7 +177,7 @@ TEST(Pcf, PointsOfTheSpiralKeepApart) {
         float nearest = 2;
         for (int i = 0; i < n; ++i) {
             for (int j = 0; j < i; ++j) {
-                nearest = std::min(nearest, glm::distance(gn_pcf_vogel(i, n, 0.3F), gn_pcf_vogel(j, n, 0.3F)));
+                nearest = std::min(nearest, glm::distance(gn_vogel(i, n, 0.3F), gn_vogel(j, n, 0.3F)));
             }
         }
         EXPECT_GT(nearest * std::sqrt(static_cast<float>(n)), 1.54F) << n;

@@ -77,8 +77,8 @@ GN_FN float gn_pcss_spread(bool far, float receiver, float blocker) {
     return far ? between : between / max(blocker, 1.0e-3f * receiver);
 }
 
-// The radius of the disc through a sphere's centre that hides what the sphere does for a blocker at `blocker` metres from the
-// centre: the penumbra of a sphere is 2 r (d_r - d_o) / sqrt(d_o^2 - r^2) wide.
+// How much wider than a sphere the disc through its centre is that gives the same penumbra for a blocker at `blocker` metres
+// from the centre: it of a sphere is 2 r (d_r - d_o) / sqrt(d_o^2 - r^2) wide.
 GN_FN float gn_pcss_bulge(float radius, float blocker) {
     float share = min(radius / max(blocker, 1.0e-6f), 0.95f);
     return 1.0f / sqrt(1.0f - share * share);
@@ -100,15 +100,13 @@ GN_FN vec2 gn_pcss_reach(GnLookup at, GnPcssLight half_light, float spread) {
     return half_light.square ? right_ts + up_ts : sqrt(right_ts * right_ts + up_ts * up_ts);
 }
 
-// Point i of n in the light's own shape, turned or moved by the pixel's noise. [Vog79]
+// Point i of n in the light's own shape, turned or moved by the pixel's noise.
 GN_FN vec2 gn_pcss_point(bool square, int i, int n, float noise) {
     if (square) {
         vec2 cell = vec2(0.75487767f, 0.56984029f) * float(i) + vec2(noise, fract(7.0f * noise + 0.5f));
         return 2.0f * fract(cell) - 1.0f;
     }
-    float r = sqrt((float(i) + 0.5f) / float(n));
-    float angle = 2.39996323f * float(i) + 6.28318531f * noise;
-    return r * vec2(cos(angle), sin(angle));
+    return gn_vogel(i, n, 6.28318531f * noise);
 }
 
 #ifdef __cplusplus
