@@ -83,6 +83,20 @@ TEST(Pcss, CastersKeepTheirDistances) {
     }
 }
 
+TEST(Pcss, DistancesAreAlongTheLightsAxisWhateverWayTheViewLooks) {
+    const Scene scene = load_scene("half-plane");
+    const GnLight& light = scene.lights.front().shape;
+    const LightViews views = test::place(scene, "pcss,placement=fit");
+    const GnLightView& view = views.views.front();
+    const vec3 axis = glsl::gn_pcss_axis(light, vec3(0));
+    for (const vec3 p_ws : {vec3(0.4F, 0, 0.3F), vec3(-0.5F, 2, -0.6F), vec3(-1, 1, 0.2F)}) {
+        const vec2 uv_ts(test::uv_of(view, dvec3(p_ws)));
+        const float depth = glm::dot(view.depth_from_ws, vec4(p_ws, 1));
+        EXPECT_NEAR(glsl::gn_pcss_distance(view, axis, uv_ts, depth), glm::dot(axis, p_ws - vec3(light.position_ws)),
+                    1e-4);
+    }
+}
+
 /// V minus the truth in slices across the penumbra.
 struct Slice {
     double sum = 0, squares = 0;
