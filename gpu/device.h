@@ -69,10 +69,12 @@ struct AdoptedDevice {
     std::vector<const char*> extensions{};
 };
 
-/// How many objects were made since the device was; a steady frame makes none.
+/// How much was made since the device was; a steady frame makes nothing.
 struct Counters {
     std::uint64_t pipelines = 0, samplers = 0, images = 0, buffers = 0, views = 0, allocations = 0;
     std::uint64_t pools = 0;  ///< of commands and queries
+    std::uint64_t texts =
+        0;  ///< of shaders, composed for a frame and not kept: who keeps one seals it (gpu/pipeline.h)
     bool operator==(const Counters&) const = default;
 };
 

@@ -268,7 +268,7 @@ Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& fo
 }
 
 const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
-    unsealed_ += open_texts(desc);
+    device_.counters().texts += open_texts(desc);
     Hasher hasher;
     hash(hasher, desc.shader);
     hash(hasher, desc.constants);
@@ -284,7 +284,7 @@ const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
 }
 
 const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
-    unsealed_ += open_texts(desc);
+    device_.counters().texts += open_texts(desc);
     const Fingerprint key = fingerprint(desc, formats);
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return found->second;

@@ -58,8 +58,6 @@ class PipelineCache {
     std::shared_ptr<const void> remake(const std::set<Fingerprint>& shaders);
     /// How many pipelines were made so far.
     [[nodiscard]] std::size_t size() const { return pipelines_.size(); }
-    /// How many shader texts had to be fingerprinted when they were bound: who composes one once seals it (gpu/pipeline.h).
-    [[nodiscard]] std::uint64_t unsealed() const { return unsealed_; }
     /// Writes what the driver compiled to disk, where pipelines were made since the last time; at the end this is done
     /// anyway.
     void save();
@@ -83,7 +81,6 @@ class PipelineCache {
     Fingerprint disk_key_;  ///< of the driver, which alone can read its own data
     VkPipelineCache vk_ = VK_NULL_HANDLE;
     std::size_t saved_ = 0;  ///< pipelines that the disk knows
-    std::uint64_t unsealed_ = 0;
     std::map<Fingerprint, Pipeline> pipelines_;
     std::map<Fingerprint, Making> makings_;  ///< of all of them where shaders have sources, else empty
     std::map<Fingerprint, VkSampler> samplers_;

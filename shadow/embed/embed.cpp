@@ -139,8 +139,8 @@ Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, cons
         info.receivers.normals != Normals::none
             ? lenders.images.import(graph, "normals", frame.receivers.normals, VK_IMAGE_USAGE_SAMPLED_BIT)
             : TextureHandle{};
-    const ViewSamples receivers =
-        add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals, frame.casters.bounds_ws);
+    const ViewSamples receivers = add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals,
+                                                     frame.casters.bounds_ws, recipe.get());
 
     // The shadows.
     const std::vector<FrameLight> lights = take_lights(lenders.casters.scene(), frame);
@@ -153,7 +153,8 @@ Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, cons
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const TextureHandle target =
             lenders.images.import(graph, "visibility", frame.lights[i].visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target);
+        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target,
+                 recipe.get());
         declared.refused.push_back(shadows[i].refused);
     }
     declared.casters = geometry.drawn != nullptr ? geometry.drawn->formats : CasterFormats{};

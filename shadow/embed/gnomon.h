@@ -160,7 +160,8 @@ typedef struct GnomonForeseen {
 
 /* Objects that the device was asked for since the shadows were created. */
 typedef struct GnomonCounters {
-    uint64_t pipelines, samplers, images, buffers, views, allocations, pools;
+    uint64_t pipelines, samplers, images, buffers, views, allocations, pools,
+        texts; /* texts: of shaders, composed anew */
 } GnomonCounters;
 
 const char* gnomon_create(const GnomonInfo* info, GnomonShadows** shadows);

@@ -306,5 +306,5 @@ uint32_t gnomon_completed(GnomonShadows* shadows, uint32_t slot, const GnomonPas
 
 GnomonCounters gnomon_counters(const GnomonShadows* shadows) {
     const Counters now = shadows->shadows.counters();
-    return {now.pipelines, now.samplers, now.images, now.buffers, now.views, now.allocations, now.pools};
+    return {now.pipelines, now.samplers, now.images, now.buffers, now.views, now.allocations, now.pools, now.texts};
 }

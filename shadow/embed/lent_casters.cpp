@@ -133,6 +133,22 @@ void dispatch_over(Recorder& r, std::uint32_t count, std::uint32_t objects, cons
     r.dispatch(across, (groups + across - 1) / across);
 }
 
+ComputeDesc composed(const char* name, const ShaderInputs& inputs, const char* text) {
+    return sealed(ComputeDesc{
+        {ShaderKind::compute, name, "#include \"shadow/embed/lent_casters.glsl\"\n" + inputs.text() + find_text + text},
+        {}});
+}
+
+/// Both shaders, composed once: what their inputs declare never changes.
+const ComputeDesc& indices_shader(const ShaderInputs& inputs) {
+    static const ComputeDesc shader = composed("lent indices", inputs, indices_text);
+    return shader;
+}
+const ComputeDesc& positions_shader(const ShaderInputs& inputs) {
+    static const ComputeDesc shader = composed("lent positions", inputs, positions_text);
+    return shader;
+}
+
 }  // namespace
 
 LentCasters::LentCasters(Device& device)
@@ -231,15 +247,12 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
 
     const BufferHandle positions = graph.import(*positions_), indices = graph.import(*indices_);
     const auto objects = static_cast<std::uint32_t>(table_.size() / sizeof(LentObject));
-    const auto add_pass = [&](const char* name, const char* text, ShaderInputs inputs, std::uint32_t count,
+    const auto add_pass = [&](const char* name, const auto& shader_of, ShaderInputs inputs, std::uint32_t count,
                               const Begins& begins) {
         inputs.block("readonly buffer", "Objects", "GnLentObject objects[];", table_);
-        const ComputeDesc shader{
-            .shader = {ShaderKind::compute, name,
-                       "#include \"shadow/embed/lent_casters.glsl\"\n" + inputs.text() + find_text + text}};
         graph.add_pass(
             name, [&](PassBuilder& pass) { inputs.declare(pass); },
-            [=](Recorder& r) {
+            [=, &shader = shader_of(inputs)](Recorder& r) {
                 r.bind(shader);
                 inputs.set(r);
                 dispatch_over(r, count, objects, begins);
@@ -251,7 +264,7 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
         graph.hold(lent);
         inputs.buffer("readonly buffer", "LentIndices", "uint lent_indices[];", graph.import(*lent));
         inputs.buffer("writeonly buffer", "Indices", "uint indices[];", indices);
-        add_pass("lent indices", indices_text, inputs, index_count_, {.first = word_of(casters.indices.offset)});
+        add_pass("lent indices", indices_shader, inputs, index_count_, {.first = word_of(casters.indices.offset)});
     }
     if (moved && vertices_ > 0) {
         ShaderInputs inputs;
@@ -262,7 +275,7 @@ SceneHandles LentCasters::add(FrameGraph& graph, Frames& frames, const CasterBuf
         inputs.buffer("readonly buffer", "LentPositions", "float positions_os[];", graph.import(*lent));
         inputs.buffer("readonly buffer", "LentTransforms", "float transforms[];", graph.import(*poses));
         inputs.buffer("writeonly buffer", "Positions", "vec3 positions_ws[];", positions);
-        add_pass("lent positions", positions_text, inputs, vertices_,
+        add_pass("lent positions", positions_shader, inputs, vertices_,
                  {.first = word_of(casters.positions.offset),
                   .stride = word_of(casters.stride),
                   .first_transform = word_of(casters.transforms.offset)});

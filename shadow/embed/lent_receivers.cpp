@@ -5,6 +5,7 @@
 #include "shadow/embed/lent_camera.h"
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn::embed {
 namespace {
@@ -84,7 +85,6 @@ void main() {
 )";
 
 constexpr const char* give_text = R"(
-layout(binding = 0) uniform sampler2D visibility;
 layout(location = 0) out vec4 v;
 void main() { v = vec4(vec3(GN_V_OF(texelFetch(visibility, ivec2(gl_FragCoord.xy), 0))), 1.0); }
 )";
@@ -107,7 +107,7 @@ void add_rays(ShaderInputs& inputs, const LentCamera& lent, const GnViewConstant
 }  // namespace
 
 ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, const Receivers& lent, TextureHandle depth,
-                               TextureHandle normals, const Box& bounds_ws) {
+                               TextureHandle normals, const Box& bounds_ws, const PreparedRecipe* prepared) {
     const LentCamera camera = camera_of(lent.cs_from_ws, form.reversed_depth, lent.width, lent.height, bounds_ws);
     const auto create = [&](const char* name) {
         return graph.create(
@@ -125,23 +125,24 @@ ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, cons
     inputs.image("rgba32f", "writeonly", "image2D", "position_ws", position);
     inputs.image("rgba32f", "writeonly", "image2D", "normal_ws", normal);
     add_rays(inputs, camera, samples.constants);
-    const std::string defines =
-        fmt::format("#define GN_REVERSED {}\n#define GN_PERSPECTIVE {}\n#define GN_NORMALS {}\n", form.reversed_depth,
-                    !is_orthographic(camera.camera), static_cast<int>(form.normals));
-    const ComputeDesc shader{
-        .shader = {ShaderKind::compute, "lent receivers",
-                   defines + "#include \"shadow/embed/lent_receivers.glsl\"\n" + inputs.text() + main_text}};
+    const bool perspective = !is_orthographic(camera.camera);
+    const Hasher key = hashed(inputs).value(form.reversed_depth).value(perspective).value(form.normals);
+    const auto shader = compute_once(prepared, "lent receivers", key, [&] {
+        return fmt::format("#define GN_REVERSED {}\n#define GN_PERSPECTIVE {}\n#define GN_NORMALS {}\n",
+                           form.reversed_depth, perspective, static_cast<int>(form.normals)) +
+               "#include \"shadow/embed/lent_receivers.glsl\"\n" + inputs.text() + main_text;
+    });
     graph.add_pass(
         "lent receivers", [&](PassBuilder& pass) { inputs.declare(pass); },
         [=, width = lent.width, height = lent.height](Recorder& r) {
-            r.bind(shader);
+            r.bind(*shader);
             inputs.set(r);
             r.dispatch_pixels(width, height);
         });
     return samples;
 }
 
-void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target) {
+void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target, const PreparedRecipe* prepared) {
     if (!visibility.valid()) {
         graph.add_pass(
             "lit",
@@ -151,16 +152,22 @@ void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target)
             [](Recorder&) {});
         return;
     }
-    const std::string text = channels_text(channels_of(graph, visibility)) + give_text;
+    const uint channels = channels_of(graph, visibility);
+    ShaderInputs inputs;
+    inputs.texture("sampler2D", "visibility", visibility);
+    const auto shader = made_once(prepared, "give back V", channels, [&] {
+        return sealed(
+            fullscreen({ShaderKind::fragment, "give back V", channels_text(channels) + inputs.text() + give_text}));
+    });
     graph.add_pass(
         "give back V",
         [&](PassBuilder& pass) {
-            pass.sample(visibility);
+            inputs.declare(pass);
             pass.color(target, Load::discard);
         },
         [=](Recorder& r) {
-            r.bind(fullscreen({ShaderKind::fragment, "give back V", text}));
-            r.set("visibility", visibility);
+            r.bind(*shader);
+            inputs.set(r);
             r.draw(3);
         });
 }

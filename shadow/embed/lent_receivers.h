@@ -7,11 +7,12 @@
 
 namespace gn::embed {
 
-/// Positions and normals of what the camera sees, from depth and normals. Throws Error where the matrix is no camera's.
+/// Positions and normals of what the camera sees, from depth and normals; `prepared` keeps the shader. Throws Error where the
+/// matrix is no camera's.
 ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, const Receivers& lent, TextureHandle depth,
-                               TextureHandle normals, const Box& bounds_ws);
+                               TextureHandle normals, const Box& bounds_ws, const PreparedRecipe* prepared = nullptr);
 
 /// Writes V into a colour image of the same size; 1 everywhere where `visibility` is invalid.
-void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target);
+void add_copy(FrameGraph& graph, TextureHandle visibility, TextureHandle target, const PreparedRecipe* prepared);
 
 }  // namespace gn::embed

@@ -65,32 +65,32 @@ bool emits(const Scene& scene) {
                        [](const Material& material) { return material.emissive != vec3(0); });
 }
 
-/// What V of light `i` is called in the text; "vec3(1.0)" where there is none.
-std::string add_visibility(ShaderInputs& inputs, const FrameInput& input, std::size_t i, TextureHandle image) {
-    if (!image.valid()) {
-        return "vec3(1.0)";
+void add_visibility(ShaderInputs& inputs, const FrameInput& input, std::size_t i, TextureHandle image) {
+    if (image.valid()) {
+        inputs.texels(input.device, visibility_format(channels_of(input.graph, image)), "2D",
+                      fmt::format("visibility{}", i), image);
     }
-    const uint channels = channels_of(input.graph, image);
-    const std::string name = fmt::format("visibility{}", i);
-    inputs.texels(input.device, visibility_format(channels), "2D", name, image);
-    return fmt::format("vec3({}_texel(pixel).{})", name, channels == 1 ? "r" : "rgb");
 }
 
-struct Composed {
-    ShaderInputs inputs;
-    std::string text;
-};
+/// V of light `i` in the text; 1 where there is none.
+std::string visibility_text(const FrameInput& input, std::size_t i, TextureHandle image) {
+    return image.valid() ? fmt::format("vec3(visibility{}_texel(pixel).{})", i,
+                                       channels_of(input.graph, image) == 1 ? "r" : "rgb")
+                         : "vec3(1.0)";
+}
 
-Composed compose(const FrameInput& input, const ShadingPass& pass) {
+bool adds_emission(const FrameInput& input, const ShadingPass& pass) {
+    return !pass.before.valid() && emits(input.scene);
+}
+
+ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
     const ViewSamples& samples = input.samples;
-    const bool emission = !pass.before.valid() && emits(input.scene);
-    Composed composed;
-    ShaderInputs& inputs = composed.inputs;
+    ShaderInputs inputs;
     add_gbuffer(inputs, input.device, samples);
     inputs.texels(input.device, VK_FORMAT_R16G16B16A16_SFLOAT, "2D", "gbuffer_shading_normal", samples.shading_normal);
     inputs.texels(input.device, VK_FORMAT_R8G8B8A8_UNORM, "2D", "gbuffer_material", samples.material);
     inputs.texture("sampler2D", "gbuffer_albedo", samples.albedo);
-    if (emission) {
+    if (adds_emission(input, pass)) {
         inputs.texels(input.device, VK_FORMAT_R16G16B16A16_SFLOAT, "2D", "gbuffer_emission", samples.emission);
     }
     if (pass.before.valid()) {
@@ -101,16 +101,22 @@ Composed compose(const FrameInput& input, const ShadingPass& pass) {
         const Light sky = environment_of(input.scene);
         inputs.constant("GnLight", "environment", sky.shape).constant("GnSky", "sky", sky.sky);
     }
+    for (std::size_t i = 0; i < pass.lights.size(); ++i) {
+        inputs.constant("GnLight", fmt::format("light{}", i), pass.lights[i].shape);
+        add_visibility(inputs, input, i, pass.visibility[i]);
+    }
+    return inputs;
+}
+
+std::string compose(const FrameInput& input, const ShadingPass& pass, const ShaderInputs& inputs) {
     std::string lights;
     for (std::size_t i = 0; i < pass.lights.size(); ++i) {
-        const GnLight& shape = pass.lights[i].shape;
-        inputs.constant("GnLight", fmt::format("light{}", i), shape);
-        lights += light_text(i, shape.kind, add_visibility(inputs, input, i, pass.visibility[i]));
+        lights += light_text(i, pass.lights[i].shape.kind, visibility_text(input, i, pass.visibility[i]));
     }
-    composed.text = std::string(emission ? "#define GN_EMISSION\n" : "") +
-                    "#include \"shadow/view/view.glsl\"\n#include \"shadow/shading/shading.glsl\"\n" + inputs.text() +
-                    "layout(location = 0) out vec4 picture;\n" + (pass.before.valid() ? "" : environment_text) +
-                    reflect_text + R"(
+    return std::string(adds_emission(input, pass) ? "#define GN_EMISSION\n" : "") +
+           "#include \"shadow/view/view.glsl\"\n#include \"shadow/shading/shading.glsl\"\n" + inputs.text() +
+           "layout(location = 0) out vec4 picture;\n" + (pass.before.valid() ? "" : environment_text) + reflect_text +
+           R"(
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 position = gbuffer_position_texel(pixel);
@@ -118,27 +124,35 @@ void main() {
     bool surface = position.w > 0.5;
     GnLight light;
     vec3 radiance = )" +
-                    (pass.before.valid() ? "before_texel(pixel).rgb" : "environment(pixel, position)") + ";\n" +
-                    lights + "    picture = vec4(radiance, 1.0);\n}\n";
-    return composed;
+           (pass.before.valid() ? "before_texel(pixel).rgb" : "environment(pixel, position)") + ";\n" + lights +
+           "    picture = vec4(radiance, 1.0);\n}\n";
+}
+
+/// All that the text depends on.
+std::uint64_t key_of(const FrameInput& input, const ShadingPass& pass, const ShaderInputs& inputs) {
+    Hasher hasher = hashed(inputs);
+    for (std::size_t i = 0; i < pass.lights.size(); ++i) {
+        const TextureHandle image = pass.visibility[i];
+        hasher.value(pass.lights[i].shape.kind).value(image.valid() ? channels_of(input.graph, image) : 0U);
+    }
+    return hasher.finish().low;
 }
 
 TextureHandle add_pass(const FrameInput& input, const ShadingPass& pass) {
     const ViewSamples& samples = input.samples;
     const TextureHandle picture = input.graph.create(
         {.name = "picture", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = samples.width, .height = samples.height});
-    const Composed composed = compose(input, pass);
-    const std::uint64_t key = Hasher().text(composed.text).finish().low;
-    const auto shader = made_once(input.prepared, "shade", key, [&] {
-        return sealed(fullscreen({ShaderKind::fragment, "shade", composed.text}));
+    const ShaderInputs inputs = inputs_of(input, pass);
+    const auto shader = made_once(input.prepared, "shade", key_of(input, pass, inputs), [&] {
+        return sealed(fullscreen({ShaderKind::fragment, "shade", compose(input, pass, inputs)}));
     });
     input.graph.add_pass(
         "shade",
         [&](PassBuilder& builder) {
             builder.color(picture, Load::discard);
-            composed.inputs.declare(builder);
+            inputs.declare(builder);
         },
-        [shader, inputs = composed.inputs](Recorder& r) {
+        [shader, inputs](Recorder& r) {
             r.bind(*shader);
             inputs.set(r);
             r.draw(3);

@@ -6,6 +6,7 @@
 #include "shadow/direct/volumes/volumes.glsl"
 #include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 
 namespace gn {
 
@@ -135,9 +136,9 @@ ShaderInputs side_inputs(const FrameInput& input, const VolumeBuffers& buffers) 
 
 // Z-fail: what lies at or behind the sample counts. Depth is reversed, so that this is LESS_OR_EQUAL; opaque caps always
 // count (volumes.md derives both).
-RasterDesc count_pipeline(const char* name, const std::string& text, VkCompareOp compare, bool turned, bool far) {
+RasterDesc count_pipeline(const char* name, std::string text, VkCompareOp compare, bool turned, bool far) {
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, name, text};
+    desc.vertex = {ShaderKind::vertex, name, std::move(text)};
     desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", count_text};
     desc.constants = {{1, turned ? 1U : 0U}, {2, far ? 1U : 0U}};
     desc.blend = Blend::add;
@@ -146,29 +147,49 @@ RasterDesc count_pipeline(const char* name, const std::string& text, VkCompareOp
     return desc;
 }
 
-RasterDesc opaque_pipeline(const std::string& text, bool turned, bool far) {
-    RasterDesc desc = count_pipeline("volume-cap.vert", text, VK_COMPARE_OP_ALWAYS, turned, far);
+RasterDesc opaque_pipeline(std::string text, bool turned, bool far) {
+    RasterDesc desc = count_pipeline("volume-cap.vert", std::move(text), VK_COMPARE_OP_ALWAYS, turned, far);
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
     desc.vertex_stride = sizeof(vec3);
-    return desc;
+    return sealed(std::move(desc));
 }
 
-RasterDesc receiver_pipeline(const ShaderInputs& inputs) {
-    RasterDesc desc = fullscreen({ShaderKind::fragment, "volume-receiver.frag", with(inputs, receiver_text)});
-    desc.depth_test = desc.depth_write = true;
-    desc.depth_compare = VK_COMPARE_OP_ALWAYS;
-    return desc;
+/// What counts: the sides, and by whether it is turned over each cap.
+struct CountPipelines {
+    RasterDesc sides;
+    std::array<RasterDesc, 2> near, far, masked;
+};
+
+CountPipelines count_pipelines(const ShaderInputs& inputs) {
+    constexpr VkCompareOp behind = VK_COMPARE_OP_LESS_OR_EQUAL;
+    CountPipelines made{
+        sealed(count_pipeline("volume-side.vert", with(inputs, side_text), behind, false, false)), {}, {}, {}};
+    for (std::size_t turned = 0; turned < 2; ++turned) {
+        made.near[turned] = opaque_pipeline(with(inputs, opaque_text), turned == 1, false);
+        made.far[turned] = opaque_pipeline(with(inputs, opaque_text), turned == 1, true);
+        made.masked[turned] =
+            sealed(count_pipeline("volume-masked.vert", with(inputs, masked_text), behind, turned == 1, false));
+    }
+    return made;
 }
 
-// The beginning of each side, where it may lie before a sample that touches the edge it hangs from.
-RasterDesc border_pipeline(const ShaderInputs& inputs) {
-    RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, "volume-side.vert", with(inputs, side_text)};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", with(inputs, border_text)};
-    desc.constants = {{0, 1U}};
-    desc.depth_test = desc.depth_write = desc.depth_clamp = true;
-    desc.depth_compare = VK_COMPARE_OP_GREATER;
-    return desc;
+/// What makes the receivers' depth: a copy, and what lifts it.
+struct ReceiverPipelines {
+    RasterDesc copy, border;
+};
+
+ReceiverPipelines receiver_pipelines(const ShaderInputs& inputs) {
+    RasterDesc copy = fullscreen({ShaderKind::fragment, "volume-receiver.frag", with(inputs, receiver_text)});
+    copy.depth_test = copy.depth_write = true;
+    copy.depth_compare = VK_COMPARE_OP_ALWAYS;
+    // The beginning of each side, where it may lie before a sample that touches the edge it hangs from.
+    RasterDesc border;
+    border.vertex = {ShaderKind::vertex, "volume-side.vert", with(inputs, side_text)};
+    border.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", with(inputs, border_text)};
+    border.constants = {{0, 1U}};
+    border.depth_test = border.depth_write = border.depth_clamp = true;
+    border.depth_compare = VK_COMPARE_OP_GREATER;
+    return {sealed(std::move(copy)), sealed(std::move(border))};
 }
 
 }  // namespace
@@ -180,6 +201,8 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
     ShaderInputs inputs = side_inputs(input, buffers);
     add_gbuffer(inputs, input.device, samples);
     inputs.texture("sampler2D", "depth", lent(samples.depth, "depth"));
+    const auto pipelines = made_once(input.prepared, "volume receivers", hashed(inputs).finish().low,
+                                     [&] { return receiver_pipelines(inputs); });
     input.graph.add_pass(
         "volumes: receivers",
         [&](PassBuilder& pass) {
@@ -187,12 +210,12 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
             inputs.declare(pass);
             pass.indirect(buffers.draws);
         },
-        [inputs, draws = buffers.draws](Recorder& r) {
+        [inputs, pipelines, draws = buffers.draws](Recorder& r) {
             // Take the view samples' depth bit for bit, then lift what touches an edge before the side that hangs there.
-            r.bind(receiver_pipeline(inputs));
+            r.bind(pipelines->copy);
             inputs.set(r);
             r.draw(3);
-            r.bind(border_pipeline(inputs));
+            r.bind(pipelines->border);
             r.draw_indirect(draws, strips_draw * sizeof(std::uint32_t));
         });
     return lifted;
@@ -207,6 +230,8 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
     inputs.buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
         .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);
+    const auto pipelines = made_once(input.prepared, "volume counts", hashed(inputs).finish().low,
+                                     [&] { return count_pipelines(inputs); });
     input.graph.add_pass(
         "volumes: counts",
         [&](PassBuilder& pass) {
@@ -217,24 +242,23 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
             pass.indices(buffers.indices);
             pass.indirect(buffers.draws);
         },
-        [inputs, buffers, positions = input.handles.positions](Recorder& r) {
+        [inputs, pipelines, draws = buffers.draws, indices = buffers.indices,
+         far_caps = gn_volumes_has_far_cap(buffers.frame), positions = input.handles.positions](Recorder& r) {
             const auto at = [](std::uint32_t word) { return word * sizeof(std::uint32_t); };
-            r.bind(
-                count_pipeline("volume-side.vert", with(inputs, side_text), VK_COMPARE_OP_LESS_OR_EQUAL, false, false));
+            r.bind(pipelines->sides);
             inputs.set(r);
-            r.draw_indirect(buffers.draws, at(sides_draw));
+            r.draw_indirect(draws, at(sides_draw));
             r.vertex_buffer(positions);
-            r.index_buffer(buffers.indices);
-            for (const bool turned : {false, true}) {
-                r.bind(opaque_pipeline(with(inputs, opaque_text), turned, false));
-                r.draw_indexed_indirect(buffers.draws, at(opaque_draw + (turned ? 5 : 0)));
-                if (gn_volumes_has_far_cap(buffers.frame)) {
-                    r.bind(opaque_pipeline(with(inputs, opaque_text), turned, true));
-                    r.draw_indexed_indirect(buffers.draws, at(opaque_draw + (turned ? 5 : 0)));
+            r.index_buffer(indices);
+            for (std::uint32_t turned = 0; turned < 2; ++turned) {
+                r.bind(pipelines->near[turned]);
+                r.draw_indexed_indirect(draws, at(opaque_draw + 5 * turned));
+                if (far_caps) {
+                    r.bind(pipelines->far[turned]);
+                    r.draw_indexed_indirect(draws, at(opaque_draw + 5 * turned));
                 }
-                r.bind(count_pipeline("volume-masked.vert", with(inputs, masked_text), VK_COMPARE_OP_LESS_OR_EQUAL,
-                                      turned, false));
-                r.draw_indirect(buffers.draws, at(masked_draw + (turned ? 4 : 0)));
+                r.bind(pipelines->masked[turned]);
+                r.draw_indirect(draws, at(masked_draw + 4 * turned));
             }
         });
     return counts;
@@ -248,15 +272,18 @@ Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
     add_gbuffer(inputs, input.device, samples);
     inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "counts", counts);
     inputs.constant("GnLight", "light", input.whole_light().shape);
-    const std::string text = "#include \"shadow/scene/light.h\"\n" + inputs.text() + resolve_text;
+    const auto shader = made_once(input.prepared, "volume resolve", hashed(inputs).finish().low, [&] {
+        const std::string text = "#include \"shadow/scene/light.h\"\n" + inputs.text() + resolve_text;
+        return sealed(fullscreen({ShaderKind::fragment, "volume-resolve.frag", text}));
+    });
     input.graph.add_pass(
         "volumes: resolve",
         [&](PassBuilder& pass) {
             pass.color(image, Load::clear);
             inputs.declare(pass);
         },
-        [inputs, text](Recorder& r) {
-            r.bind(fullscreen({ShaderKind::fragment, "volume-resolve.frag", text}));
+        [inputs, shader](Recorder& r) {
+            r.bind(*shader);
             inputs.set(r);
             r.draw(3);
         });

@@ -5,6 +5,7 @@
 #include "gpu/shader_inputs.h"
 #include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/geometry/caster_geometry.h"
+#include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 
 #include <cmath>
@@ -93,14 +94,14 @@ struct ListPass {
     const char* text;
 };
 void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderInputs& inputs, std::uint32_t count) {
-    const ComputeDesc shader{{ShaderKind::compute, pass.name,
-                              std::string(pass.doubles ? "#define GN_VOLUMES_DOUBLE\n" : "") +
-                                  "#include \"shadow/direct/volumes/volumes.glsl\"\n" + inputs.text() + pass.text},
-                             {}};
+    const auto shader = compute_once(input.prepared, pass.name, hashed(inputs), [&] {
+        return std::string(pass.doubles ? "#define GN_VOLUMES_DOUBLE\n" : "") +
+               "#include \"shadow/direct/volumes/volumes.glsl\"\n" + inputs.text() + pass.text;
+    });
     input.graph.add_pass(
         pass.name, [&](PassBuilder& builder) { inputs.declare(builder); },
         [shader, inputs, count](Recorder& r) {
-            r.bind(shader);
+            r.bind(*shader);
             inputs.set(r);
             dispatch_all(r, count);
         });
@@ -182,6 +183,7 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
     FrameGraph& graph = input.graph;
     VolumeBuffers buffers{.scene = edge_buffers(input, params.masked == GN_VOLUMES_SKIP)};
     const EdgeBuffers& scene = *buffers.scene;
+    graph.hold(buffers.scene);
     buffers.edges = graph.import(scene.edges);
     buffers.first = graph.import(scene.first);
     buffers.around = graph.import(scene.around);

@@ -30,7 +30,7 @@ enum VolumeDraw : std::uint32_t {
 };
 
 struct VolumeBuffers {
-    std::shared_ptr<const EdgeBuffers> scene;  ///< kept alive by the passes that use it
+    std::shared_ptr<const EdgeBuffers> scene;  ///< the graph holds it
     std::vector<std::uint32_t> forms;          ///< per component: GN_VOLUMES_*
     GnVolumesFrame frame;
     BufferHandle edges, first, around, owners;
