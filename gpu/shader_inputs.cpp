@@ -90,6 +90,13 @@ ShaderInputs& ShaderInputs::constant_bytes(std::string_view type, std::string_vi
     return *this;
 }
 
+ShaderInputs& ShaderInputs::add(const ShaderInputs& others) {
+    entries_.insert(entries_.end(), others.entries_.begin(), others.entries_.end());
+    constant_members_ += others.constant_members_;
+    constants_.insert(constants_.end(), others.constants_.begin(), others.constants_.end());
+    return *this;
+}
+
 std::string ShaderInputs::text(unsigned first) const {
     std::string text;
     for (const Entry& entry : entries_) {

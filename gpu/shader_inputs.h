@@ -38,6 +38,8 @@ class ShaderInputs {
         return constant_bytes(type, name, std::as_bytes(std::span(&value, 1)));
     }
     ShaderInputs& constant_bytes(std::string_view type, std::string_view name, std::span<const std::byte> bytes);
+    /// All that others declare, after what was added before.
+    ShaderInputs& add(const ShaderInputs& others);
 
     /// GLSL: the declarations, numbered from `first`. The types that they name must stand before.
     [[nodiscard]] std::string text(unsigned first = 0) const;

@@ -328,6 +328,17 @@ def portable_glsl(tree):
     return complaints
 
 
+def named_bindings(tree):
+    """Shaders of shadow/ declare what they read through ShaderInputs, by name: no binding number and no block by hand."""
+    complaints = []
+    by_hand = (r"\bbinding\s*=\s*\d", r"^\s*(?:layout\s*\([^)]*\)\s*)?(?:(?:read|write)only\s+)?(?:uniform|buffer)\s+\w+\s*\{")
+    for name in (file for file in tree.having({".cpp", ".h", ".glsl"}, "shadow/") if not is_test(file)):
+        for number, line in enumerate(tree.text(name).splitlines(), 1):
+            if "push_constant" not in line and any(re.search(word, line) for word in by_hand):
+                complaints.append(f"{name}:{number}: numbers a binding by hand: {line.strip()}; ShaderInputs declares it by name")
+    return complaints
+
+
 def recipes(tree):
     """A recipe names parts that exist, says why one would use it, and cites a work."""
     complaints = []
@@ -386,4 +397,4 @@ def mutants(tree):
 
 
 ALL = (part_shape, part_definitions, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
-       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, recipes, manual_pages, mutants)
+       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, named_bindings, recipes, manual_pages, mutants)

@@ -30,14 +30,9 @@ LightViews one_by_one(LightViews views) {
     return views;
 }
 
-RasterDesc between_pipeline(bool limited, bool tiles) {
-    const std::string text =
-        std::string(limited ? "#define GN_LIMITED\n" : "") + (tiles ? "#define GN_TILES\n" : "") + R"(
-#include "shadow/casters/caster_depth.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 1) uniform sampler2DArray nearest_depth;
-layout(binding = 2) uniform sampler2DArray second_depth;
-layout(binding = 3, scalar) uniform Constants { GnBias bias; } u;
+RasterDesc between_pipeline(const ShaderInputs& inputs, bool limited, bool tiles) {
+    const std::string text = std::string(limited ? "#define GN_LIMITED\n" : "") + (tiles ? "#define GN_TILES\n" : "") +
+                             include_line("shadow/casters/caster_depth.glsl") + inputs.text() + R"(
 layout(push_constant, scalar) uniform Push { int view; } push;
 #ifdef GN_TILES
 layout(location = 7) flat in int tile_view;
@@ -69,10 +64,13 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
                           TextureHandle second) {
     const TextureHandle map = create_map(input, views, "map", VK_FORMAT_D32_SFLOAT);
     const BufferHandle quads = views.tiles ? add_tile_draw(input, views, tile_quad_vertices) : BufferHandle{};
-    const ShaderInputs inputs = view_inputs(views);
+    ShaderInputs inputs = view_list(views);
+    inputs.texture("sampler2DArray", "nearest_depth", nearest)
+        .texture("sampler2DArray", "second_depth", second)
+        .constant("GnBias", "bias", applied_bias(input, recipe));
     const bool limited = recipe.casters == Casters::dual;
     const auto shader = made_once(input.prepared, "map between", (limited ? 1U : 0U) + (views.tiles ? 2U : 0U),
-                                  [&] { return between_pipeline(limited, views.tiles); });
+                                  [&] { return between_pipeline(inputs, limited, views.tiles); });
     for (const ViewPass& view : view_passes(views)) {
         input.graph.add_pass(
             "map between",
@@ -81,19 +79,14 @@ TextureHandle add_between(const FrameInput& input, const Recipe& recipe, const L
                 if (views.tiles) {
                     pass.indirect(quads);
                 }
-                pass.sample(nearest);
-                pass.sample(second);
                 inputs.declare(pass);
             },
-            [=, bias = applied_bias(input, recipe)](Recorder& r) {
+            [=](Recorder& r) {
                 if (!views.tiles) {
                     set_viewport(r, views.views[view.index]);
                 }
                 r.bind(*shader);
                 inputs.set(r);
-                r.set("nearest_depth", nearest);
-                r.set("second_depth", second);
-                r.set_value("u", bias);
                 r.push_value(static_cast<int>(view.index));
                 views.tiles ? r.draw_indirect(quads) : r.draw(3);
             });

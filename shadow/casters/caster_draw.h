@@ -22,7 +22,7 @@ struct CasterJob {
     const Scene* scene = nullptr;
     const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
     const PreparedRecipe* prepared = nullptr;
-    ShaderInputs view_inputs;          ///< of `views`
+    ShaderInputs inputs;               ///< all that the pass's shaders read
     BufferHandle tile_draws;           ///< add_tile_draws, with tiles
     std::vector<TextureHandle> masks;  ///< base colour textures of alpha-tested materials
     std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders

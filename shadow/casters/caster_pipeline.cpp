@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/casters/caster_pipeline.h"
 
+#include "shadow/receiver/sample_pass.h"
+
 namespace gn {
 namespace {
 
 constexpr const char* vertex_text = R"(
-#include "shadow/casters/tiles.glsl"
 layout(location = 0) in vec3 in_position_ws;
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
 #if defined(GN_FRAGMENT) && !defined(GN_PARABOLOID)
 layout(location = 0) out float out_depth;
@@ -19,8 +19,6 @@ out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
 #endif
 #endif
 #ifdef GN_MASKED
-layout(binding = 1, scalar) readonly buffer Uvs { vec2 uvs[]; };
-layout(binding = 9, scalar) readonly buffer Colors { vec4 colors[]; };
 layout(location = 1) out vec3 out_mask;  // uv, and the alpha of the vertices
 #endif
 void main() {
@@ -61,7 +59,6 @@ void main() {
 // A triangle's edges are curved on a paraboloid. Its bounding rectangle is drawn, and every texel's ray meets the triangle
 // itself: exact for triangles of any size, without subdividing them.
 constexpr const char* paraboloid_text = R"(
-#include "shadow/casters/tiles.glsl"
 #include "shadow/receiver/paraboloid.glsl"
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -76,7 +73,6 @@ layout(location = 5) flat out vec3 out_mask_b;
 layout(location = 6) flat out vec3 out_mask_c;
 #endif
 #ifdef GN_TILES
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(location = 7) flat in int in_view[];
 layout(location = 7) flat out int out_view;
 #endif
@@ -114,17 +110,9 @@ void main() {
 }
 )";
 
-/// Bindings of the blocks and textures that every caster shader reads; a map's own come after them.
-constexpr unsigned caster_bindings = 3;
-
 constexpr const char* fragment_head = R"(
-#include "shadow/light_view.h"
 #include "shadow/receiver/paraboloid.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
-#ifdef GN_MASKED
-layout(binding = 2) uniform sampler2D base_color_texture;
-#endif
 #ifdef GN_PARABOLOID
 layout(location = 0) in vec2 in_u;
 layout(location = 1) flat in vec3 in_a;
@@ -186,10 +174,25 @@ void main() {
 
 }  // namespace
 
+ShaderInputs caster_inputs(const LightViews& views, const SceneHandles& handles, bool masked) {
+    ShaderInputs inputs = view_list(views);
+    if (masked) {
+        inputs.buffer("readonly buffer", "Uvs", "vec2 uvs[];", handles.uvs)
+            .buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors)
+            .texture("sampler2D", "base_color_texture", handles.white);
+    }
+    return inputs;
+}
+
 RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant) {
     const bool write_depth = variant.kind != ViewKind::affine;
     const bool paraboloid = variant.kind == ViewKind::paraboloid;
     const bool needs_fragment = variant.masked || write_depth || !pass.fragment.body.empty();
+    // What a map's fragments read comes after what all stages do.
+    const ShaderInputs shared = caster_inputs({}, {}, variant.masked);
+    ShaderInputs all = shared;
+    all.add(pass.fragment.inputs);
+    const std::string types = "#include \"shadow/casters/tiles.glsl\"\n";
     std::string defines;
     defines += needs_fragment ? "#define GN_FRAGMENT\n" : "";
     defines += variant.masked ? "#define GN_MASKED\n" : "";
@@ -200,15 +203,15 @@ RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant)
     defines += variant.faces.pushed ? "#define GN_PUSHED\n" : "";
 
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + vertex_text};
+    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + types + shared.text() + vertex_text};
     if (paraboloid) {
-        desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + paraboloid_text};
+        desc.geometry =
+            ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + types + shared.text() + paraboloid_text};
     }
     if (needs_fragment) {
-        desc.fragment =
-            ShaderSource{ShaderKind::fragment, pass.name + ".frag",
-                         defines + pass.fragment.includes + fragment_head + pass.fragment.inputs.text(caster_bindings) +
-                             fragment_main + pass.fragment.body + "\n}\n"};
+        desc.fragment = ShaderSource{ShaderKind::fragment, pass.name + ".frag",
+                                     defines + types + pass.fragment.includes + all.text() + fragment_head +
+                                         fragment_main + pass.fragment.body + "\n}\n"};
     }
     desc.cull = variant.faces.culled;
     desc.depth_bias = variant.faces.pushed;

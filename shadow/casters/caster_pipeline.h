@@ -24,6 +24,9 @@ struct CasterPush {
 inline constexpr float push_units = 4;
 inline constexpr float push_pixels = 4.0F / 256;
 
+/// What every stage of a pipeline that draws casters reads: the views, and where alpha is tested what tells it.
+ShaderInputs caster_inputs(const LightViews& views, const SceneHandles& handles, bool masked);
+
 /// A fragment stage stands only where depth is not affine, alpha is tested or the map asks.
 RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant);
 

@@ -5,15 +5,19 @@
 #include "shadow/casters/caster_draw.h"
 #include "shadow/casters/tiles.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 
 namespace gn {
 namespace {
 
-constexpr const char* vertex_text = R"(
+constexpr const char* types_text = R"(
+#include "shadow/light_view.h"
 #include "shadow/casters/conservative.glsl"
+)";
+
+constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 in_position_ws;
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; int layer; uint first_triangle; } push;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) flat out int out_view;
@@ -25,11 +29,9 @@ void main() {
 )";
 
 constexpr const char* geometry_text = R"(
-#include "shadow/casters/conservative.glsl"
 #include "shadow/casters/tiles.glsl"
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant, scalar) uniform Push { int view; int layer; uint first_triangle; } push;
 layout(location = 0) in vec3 in_position[];
 layout(location = 1) flat in int in_view[];
@@ -64,8 +66,6 @@ void main() {
 )";
 
 constexpr const char* fragment_text = R"(
-#include "shadow/casters/conservative.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(location = 0) flat in vec3 in_a;
 layout(location = 1) flat in vec3 in_b;
 layout(location = 2) flat in vec3 in_c;
@@ -86,16 +86,26 @@ void main() {
 )";
 
 RasterDesc pipeline(const ConservativePass& pass, bool tiles) {
-    const std::string define = fmt::format("#define GN_TILES {}\n", tiles);
+    const ShaderInputs views = view_list({});
+    ShaderInputs all = views;
+    all.add(pass.inputs);
+    const std::string head = fmt::format("#define GN_TILES {}\n", tiles) + types_text;
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", define + vertex_text};
-    desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", geometry_text};
+    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", head + views.text() + vertex_text};
+    desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", head + views.text() + geometry_text};
     desc.fragment = ShaderSource{
         ShaderKind::fragment, pass.name + ".frag",
-        pass.includes + fragment_text + pass.inputs.text(1) + pass.functions + fragment_main + pass.body + "\n}\n"};
+        head + pass.includes + all.text() + fragment_text + pass.functions + fragment_main + pass.body + "\n}\n"};
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
     desc.vertex_stride = sizeof(vec3);
-    return desc;
+    return sealed(std::move(desc));
+}
+
+/// All that its text depends on.
+std::uint64_t key_of(const ConservativePass& pass, bool tiles) {
+    Hasher hasher = hashed(pass.inputs);
+    hasher.text(pass.name).text(pass.includes).text(pass.functions).text(pass.body).value(tiles);
+    return hasher.finish().low;
 }
 
 struct Push {
@@ -115,7 +125,10 @@ void add_conservative_passes(const FrameInput& input, const LightViews& views, c
     LightViews drawn = views;
     drawn.layered = false;
     const BufferHandle draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};
-    const ShaderInputs lights = view_inputs(drawn);
+    ShaderInputs inputs = view_list(drawn);
+    inputs.add(pass.inputs);
+    const auto shader = made_once(input.prepared, "conservative", key_of(pass, views.tiles),
+                                  [&] { return pipeline(pass, views.tiles); });
     const std::vector<std::uint32_t> objects = casters(input.scene, input.light());
     for (const ViewPass& view : view_passes(drawn)) {
         input.graph.add_pass(
@@ -124,16 +137,13 @@ void add_conservative_passes(const FrameInput& input, const LightViews& views, c
                 builder.color(pass.color, view.first_of_layer ? Load::clear : Load::keep, {}, one_layer(view.layer));
                 builder.vertices(input.handles.positions);
                 builder.indices(input.handles.indices);
-                lights.declare(builder);
-                pass.inputs.declare(builder);
+                inputs.declare(builder);
                 if (drawn.tiles) {
                     builder.indirect(draws);
                 }
             },
-            [drawn, view, objects, draws, lights, inputs = pass.inputs, desc = pipeline(pass, views.tiles),
-             handles = input.handles, scene = &input.scene](Recorder& r) {
-                r.bind(desc);
-                lights.set(r);
+            [drawn, view, objects, draws, inputs, shader, handles = input.handles, scene = &input.scene](Recorder& r) {
+                r.bind(*shader);
                 inputs.set(r);
                 r.vertex_buffer(handles.positions);
                 r.index_buffer(handles.indices);

@@ -42,12 +42,15 @@ void ask_drawn(const FrameInput& input, const Recipe& recipe, const LightViews& 
 
 namespace {
 
+ShaderInputs inputs_of(const LightViews& views, const CasterPass& pass) {
+    ShaderInputs inputs = view_list(views);
+    inputs.texture("sampler2DArray", "drawn_depth", pass.depth).add(pass.fragment.inputs);
+    return inputs;
+}
+
 /// A map's fragments, of depths that were drawn; where nothing was, of the far plane.
-RasterDesc from_depth(const CasterPass& pass) {
+RasterDesc from_depth(const CasterPass& pass, const ShaderInputs& inputs) {
     const std::string head = R"(
-#include "shadow/light_view.h"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
-layout(binding = 1) uniform sampler2DArray drawn_depth;
 layout(push_constant, scalar) uniform Push { int view; } push;
 #define caster_view push.view
 )";
@@ -55,9 +58,9 @@ layout(push_constant, scalar) uniform Push { int view; } push;
 void main() {
     float depth = texelFetch(drawn_depth, ivec3(gl_FragCoord.xy, views[caster_view].layer), 0).r;
 )";
-    return sealed(fullscreen(
-        {ShaderKind::fragment, pass.name + " from depth",
-         pass.fragment.includes + head + pass.fragment.inputs.text(2) + main + pass.fragment.body + "\n}\n"}));
+    return sealed(fullscreen({ShaderKind::fragment, pass.name + " from depth",
+                              include_line("shadow/light_view.h") + pass.fragment.includes + inputs.text() + head +
+                                  main + pass.fragment.body + "\n}\n"}));
 }
 
 /// All that its text depends on.
@@ -80,24 +83,21 @@ void add_drawn_passes(const FrameInput& input, const Recipe& recipe, const Light
     if (!pass.color.valid()) {
         return;
     }
-    const ShaderInputs inputs = view_inputs(one_by_one);
-    const auto shader = made_once(input.prepared, "map from depth", key_of(pass), [&] { return from_depth(pass); });
+    const ShaderInputs inputs = inputs_of(one_by_one, pass);
+    const auto shader =
+        made_once(input.prepared, "map from depth", key_of(pass), [&] { return from_depth(pass, inputs); });
     for (const ViewPass& view : view_passes(one_by_one)) {
         input.graph.add_pass(
             pass.name + " from depth",
             [&](PassBuilder& builder) {
                 builder.color(pass.color, view.first_of_layer ? Load::clear : Load::keep, pass.clear_color,
                               one_layer(view.layer));
-                builder.sample(pass.depth);
                 inputs.declare(builder);
-                pass.fragment.inputs.declare(builder);
             },
             [=, of = one_by_one.views[view.index]](Recorder& r) {
                 set_viewport(r, of);
                 r.bind(*shader);
                 inputs.set(r);
-                r.set("drawn_depth", pass.depth);
-                pass.fragment.inputs.set(r);
                 r.push_value(static_cast<std::int32_t>(view.index));
                 r.draw(3);
             });

@@ -49,12 +49,19 @@ RasterDesc clear_pipeline(bool color) {
                      std::string(color ? "    out_color = push.color;\n" : "") + "    gl_FragDepth = 1.0;\n");
 }
 
+ShaderInputs kept_inputs(const KeptTextures& textures) {
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "kept_depth", textures.depth);
+    if (textures.color.valid()) {
+        inputs.texture("sampler2DArray", "kept_color", textures.color);
+    }
+    return inputs;
+}
+
 RasterDesc unwrap_pipeline(bool color) {
     const std::string texel = "ivec3((ivec2(gl_FragCoord.xy) + push.shift) % push.size, push.layer), 0)";
-    std::string declarations = "layout(binding = 0) uniform sampler2DArray kept_depth;\n";
-    declarations += "layout(push_constant, scalar) uniform Push { ivec2 shift; int size; int layer; } push;\n";
-    declarations += color ? "layout(binding = 1) uniform sampler2DArray kept_color;\n" : "";
-    return overwrite("unwrap kept", color, declarations,
+    const std::string push = "layout(push_constant, scalar) uniform Push { ivec2 shift; int size; int layer; } push;\n";
+    return overwrite("unwrap kept", color, kept_inputs({.color = {color ? 0U : ~0U}}).text() + push,
                      std::string(color ? "    out_color = texelFetch(kept_color, " + texel + ";\n" : "") +
                          "    gl_FragDepth = texelFetch(kept_depth, " + texel + ".r;\n");
 }
@@ -112,23 +119,20 @@ struct UnwrapPush {
 /// Copies the window of one layer out of the kept textures.
 void add_unwrap(const FrameInput& input, const LightViews& views, const CasterPass& pass, const KeptTextures& textures,
                 std::uint32_t layer, ivec2 shift) {
+    const ShaderInputs inputs = kept_inputs(textures);
     const UnwrapPush push{shift, static_cast<int>(views.resolution), static_cast<int>(layer)};
     input.graph.add_pass(
         pass.name + " unwrap",
         [&](PassBuilder& builder) {
             if (pass.color.valid()) {
                 builder.color(pass.color, Load::discard, {}, one_layer(layer));
-                builder.sample(textures.color);
             }
             builder.depth(pass.depth, Load::discard, {}, one_layer(layer));
-            builder.sample(textures.depth);
+            inputs.declare(builder);
         },
-        [push, textures](Recorder& r) {
-            r.bind(unwrap_shader(textures.color.valid()));
-            r.set("kept_depth", textures.depth);
-            if (textures.color.valid()) {
-                r.set("kept_color", textures.color);
-            }
+        [push, inputs, color = pass.color.valid()](Recorder& r) {
+            r.bind(unwrap_shader(color));
+            inputs.set(r);
             r.push_value(push);
             r.draw(3);
         });

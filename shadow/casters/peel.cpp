@@ -33,8 +33,8 @@ void add_copy(const FrameInput& input, TextureHandle from, std::uint32_t layer, 
             builder.color(to, Load::discard, {}, one_layer(to_layer));
         },
         [=](Recorder& r) {
-            static const RasterDesc shader = sealed(fullscreen({ShaderKind::fragment, "peel: gather", R"(
-layout(binding = 0) uniform sampler2DArray from;
+            static const std::string inputs = ShaderInputs().texture("sampler2DArray", "from", {}).text();
+            static const RasterDesc shader = sealed(fullscreen({ShaderKind::fragment, "peel: gather", inputs + R"(
 layout(location = 0) out vec4 depth;
 void main() { depth = vec4(texelFetch(from, ivec3(gl_FragCoord.xy, 0), 0).r); }
 )"}));

@@ -60,8 +60,7 @@ void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const
     r.bind(*made_once(job->prepared, "caster pipeline", key_of(*job, variant),
                       [&] { return sealed(caster_pipeline(job->pass, variant)); }));
     r.depth_bias(push_units, push_pixels);
-    job->view_inputs.set(r);
-    job->pass.fragment.inputs.set(r);
+    job->inputs.set(r);
     r.vertex_buffer(job->handles.positions);
     r.index_buffer(job->handles.indices);
 }
@@ -104,8 +103,6 @@ void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const s
         return;
     }
     begin(r, faces, true);
-    r.set("Uvs", job->handles.uvs);
-    r.set("Colors", job->handles.colors);
     for (const std::uint32_t index : masked) {
         const Object& object = job->scene->objects[index];
         const Material& material = job->scene->materials[static_cast<std::size_t>(object.material)];
@@ -189,16 +186,13 @@ void CasterDraw::declare(PassBuilder& builder) const {
     }
     builder.vertices(job->handles.positions);
     builder.indices(job->handles.indices);
-    builder.storage_read(job->handles.uvs);
-    builder.storage_read(job->handles.colors);
     for (const TextureHandle mask : job->masks) {
         builder.sample(mask);
     }
-    job->view_inputs.declare(builder);
+    job->inputs.declare(builder);
     if (job->views.tiles) {
         builder.indirect(job->tile_draws);
     }
-    job->pass.fragment.inputs.declare(builder);
 }
 
 namespace {
@@ -221,10 +215,13 @@ std::vector<int> masks_of(const Scene& scene) {
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass) {
     const BufferHandle tile_draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};
-    const ShaderInputs inputs = view_inputs(views);
-    auto job = std::make_shared<CasterJob>(CasterJob{pass, recipe.casters, std::move(views), input.handles,
-                                                     &input.scene, &input.light(), input.prepared, inputs, tile_draws});
-    for (const int mask : masks_of(input.scene)) {
+    const std::vector<int> masks = masks_of(input.scene);
+    ShaderInputs inputs = caster_inputs(views, input.handles, !masks.empty());
+    inputs.add(pass.fragment.inputs);
+    auto job =
+        std::make_shared<CasterJob>(CasterJob{pass, recipe.casters, std::move(views), input.handles, &input.scene,
+                                              &input.light(), input.prepared, std::move(inputs), tile_draws});
+    for (const int mask : masks) {
         job->masks.push_back(mask < 0 ? input.handles.white : input.handles.textures[static_cast<std::size_t>(mask)]);
     }
     Hasher hasher;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/casters/tiles.h"
 
-#include "gpu/shader_inputs.h"
+#include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
 namespace gn {
@@ -72,8 +72,6 @@ BufferHandle add_tile_draw(const FrameInput& input, const LightViews& views, std
 
 RasterDesc tile_quads(ShaderSource fragment) {
     static constexpr const char* text = R"(
-#include "shadow/casters/tiles.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 layout(push_constant) uniform Push { int layer; };
 layout(location = 7) flat out int tile_view;
 void main() {
@@ -86,7 +84,8 @@ void main() {
 }
 )";
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, "tile quads", text};
+    desc.vertex = {ShaderKind::vertex, "tile quads",
+                   include_line("shadow/casters/tiles.glsl") + view_list({}).text() + text};
     desc.fragment = std::move(fragment);
     return desc;
 }

@@ -15,9 +15,8 @@ BufferHandle add_tile_draw(const FrameInput& input, const LightViews& views, std
 
 /// Vertices of add_tile_draw.
 inline constexpr std::uint32_t tile_quad_vertices = 6;
-/// A pipeline whose fragments are the texels of the views' rectangles in one layer. Both stages have the block Views at
-/// binding 0, and push constants of which the first is the layer; the fragment gets
-/// `layout(location = 7) flat in int tile_view`.
+/// A pipeline whose fragments are the texels of the views' rectangles in one layer. The fragment's inputs begin with view_list,
+/// its push constants with the layer; it gets `layout(location = 7) flat in int tile_view`.
 RasterDesc tile_quads(ShaderSource fragment);
 
 }  // namespace gn

@@ -14,14 +14,13 @@ namespace {
 
 /// What `text` of a LayerPass reads beside its inputs. Where tiles are drawn one by one, a texel's own tile ends its source.
 std::string layer_head(const ShaderInputs& inputs, bool tiles) {
-    std::string text = tiles ? "#include \"shadow/casters/tiles.glsl\"\n"
-                               "layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };\n"
-                               "layout(location = 7) flat in int tile_view;\n"
+    std::string text = tiles ? "layout(location = 7) flat in int tile_view;\n"
                                "#define GN_FIRST gn_tile_texels(views[tile_view]).xy\n"
                                "#define GN_LAST gn_tile_texels(views[tile_view]).zw\n"
                              : "#define GN_FIRST ivec2(0)\n#define GN_LAST (source_size() - 1)\n";
     text += "#define GN_SOURCE(texel) source_texel(texel)\n";
-    return text + inputs.text(1) + "layout(push_constant) uniform Push { int push_map_layer; int push_layer; };\n";
+    return (tiles ? include_line("shadow/casters/tiles.glsl") : "") + inputs.text() + text +
+           "layout(push_constant) uniform Push { int push_map_layer; int push_layer; };\n";
 }
 
 /// A texture like `source` with one sample and `mips` levels.
@@ -187,12 +186,11 @@ RasterDesc layer_pipeline(const LayerPass& pass, const ShaderInputs& inputs, boo
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass) {
     const LightViews* const tiles = pass.tiles != nullptr && pass.tiles->tiles ? pass.tiles : nullptr;
     const BufferHandle quads = tiles != nullptr ? add_tile_draw(input, *tiles, tile_quad_vertices) : BufferHandle{};
-    ShaderInputs inputs = pass.inputs;
-    inputs.texels(input.device, input.graph.desc(source).format, "2DArray", "source", source);
+    ShaderInputs inputs = tiles != nullptr ? view_list(*tiles) : ShaderInputs();
+    inputs.add(pass.inputs).texels(input.device, input.graph.desc(source).format, "2DArray", "source", source);
     const Hasher key = hashed(inputs).text(pass.includes).text(pass.text).value(tiles != nullptr);
     const auto shader = made_once(input.prepared, pass.name, key.finish().low,
                                   [&] { return sealed(layer_pipeline(pass, inputs, tiles != nullptr)); });
-    const ShaderInputs lights = tiles != nullptr ? view_inputs(*tiles) : ShaderInputs();
     const std::uint32_t layers = input.graph.desc(target).layers;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t map_layer = tiles != nullptr ? layer / (layers / tiles->layers) : 0;
@@ -201,16 +199,14 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
             pass.name,
             [&](PassBuilder& builder) {
                 inputs.declare(builder);
-                lights.declare(builder);
                 if (quads.valid()) {
                     builder.indirect(quads);
                 }
                 builder.color(target, quads.valid() ? Load::clear : Load::discard, {}, one_layer(layer));
             },
-            [shader, inputs, lights, push, quads](Recorder& r) {
+            [shader, inputs, push, quads](Recorder& r) {
                 r.bind(*shader);
                 inputs.set(r);
-                lights.set(r);
                 r.push_value(push);
                 quads.valid() ? r.draw_indirect(quads) : r.draw(3);
             });

@@ -28,6 +28,14 @@ bool as_uniform(const LightViews& views) {
     return views.views.size() <= most_uniform;
 }
 
+void add_view_block(ShaderInputs& inputs, const LightViews& views, std::string_view kind, std::string_view members) {
+    if (views.buffer.valid()) {
+        inputs.buffer(kind, "Views", members, views.buffer);
+    } else {
+        inputs.block(kind, "Views", members, std::as_bytes(std::span(views.views)));
+    }
+}
+
 std::string lent_name(std::string_view name) {
     return "placement_" + identifier(name);
 }
@@ -75,13 +83,8 @@ GnBias applied_bias(const FrameInput& input, const Recipe& recipe) {
 }
 
 void add_views(ShaderInputs& inputs, const LightViews& views) {
-    const std::string_view kind = as_uniform(views) ? "uniform" : "readonly buffer";
-    const std::string_view members = as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];";
-    if (views.buffer.valid()) {
-        inputs.buffer(kind, "Views", members, views.buffer);
-    } else {
-        inputs.block(kind, "Views", members, std::as_bytes(std::span(views.views)));
-    }
+    add_view_block(inputs, views, as_uniform(views) ? "uniform" : "readonly buffer",
+                   as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];");
     if (views.data_buffer.valid()) {
         inputs.buffer("uniform", "Placement", "GnPlacementData placement;", views.data_buffer);
     } else {
@@ -89,9 +92,9 @@ void add_views(ShaderInputs& inputs, const LightViews& views) {
     }
 }
 
-ShaderInputs view_inputs(const LightViews& views) {
+ShaderInputs view_list(const LightViews& views) {
     ShaderInputs inputs;
-    add_views(inputs, views);
+    add_view_block(inputs, views, "readonly buffer", "GnLightView views[];");
     return inputs;
 }
 

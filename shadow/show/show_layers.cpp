@@ -14,8 +14,6 @@ constexpr int tallest_tile = 512;  ///< pixels, where there are several
 
 constexpr const char* tiles_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2DArray layers;
-layout(binding = 1, rgba32f) uniform writeonly image2D tiles;
 layout(push_constant, scalar) uniform Push { int side; int gap; int columns; int count; } push;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -84,16 +82,13 @@ LayerTiles add_layer_tiles(const FrameInput& input, TextureHandle layers) {
                                       .width = static_cast<uint>(tiles.columns * (tiles.side + gap) - gap),
                                       .height = static_cast<uint>(rows * (tiles.side + gap) - gap)});
     const TextureDesc& target = input.graph.desc(tiles.image);
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "layers", layers).image("rgba32f", "writeonly", "image2D", "tiles", tiles.image);
     input.graph.add_pass(
-        "show layers",
-        [&](PassBuilder& pass) {
-            pass.sample(layers);
-            pass.storage_write(tiles.image);
-        },
-        [layers, tiles, width = target.width, height = target.height](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "show layers", tiles_text}, {}});
-            r.set("layers", layers);
-            r.set_storage("tiles", tiles.image);
+        "show layers", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, tiles, width = target.width, height = target.height](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "show layers", inputs.text() + tiles_text}, {}});
+            inputs.set(r);
             r.push_value(TilesPush{tiles.side, gap, tiles.columns, tiles.layers});
             r.dispatch_pixels(width, height);
         });

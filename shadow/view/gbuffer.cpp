@@ -6,6 +6,7 @@
 // the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
 #include "gpu/vk_names.h"
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/sample_pass.h"
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
@@ -14,12 +15,7 @@ namespace {
 
 constexpr const char* vertex_text = R"(
 #include "shadow/view/project.glsl"
-#include "shadow/view/view.glsl"
 layout(location = 0) in vec3 in_position_ws;
-layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
-layout(binding = 1, scalar) readonly buffer Normals { vec3 normals[]; };
-layout(binding = 2, scalar) readonly buffer Uvs { vec2 uvs[]; };
-layout(binding = 6, scalar) readonly buffer Colors { vec4 colors[]; };
 layout(location = 0) out vec3 out_position_ws;
 layout(location = 1) out vec3 out_normal_ws;
 layout(location = 2) out vec2 out_uv;
@@ -35,11 +31,6 @@ void main() {
 )";
 
 constexpr const char* fragment_text = R"(
-#include "shadow/view/view.glsl"
-layout(binding = 0, scalar) uniform View { GnViewConstants view; } u;
-layout(binding = 3, scalar) readonly buffer Positions { vec3 positions[]; };
-layout(binding = 4, scalar) readonly buffer Indices { uint indices[]; };
-layout(binding = 5) uniform sampler2D base_color_texture;
 layout(push_constant, scalar) uniform Push {
     vec4 base_color;
     vec3 emissive;
@@ -126,16 +117,30 @@ struct Surface {
     bool masked, textured;
 };
 
+/// What both stages read. The texture is set anew by every draw that reads one.
+ShaderInputs gbuffer_inputs(const GnViewConstants& view, const SceneHandles& handles) {
+    ShaderInputs inputs;
+    inputs.constant("GnViewConstants", "view", view)
+        .buffer("readonly buffer", "Normals", "vec3 normals[];", handles.normals)
+        .buffer("readonly buffer", "Uvs", "vec2 uvs[];", handles.uvs)
+        .buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors)
+        .buffer("readonly buffer", "Positions", "vec3 positions[];", handles.positions)
+        .buffer("readonly buffer", "Indices", "uint indices[];", handles.indices)
+        .texture("sampler2D", "base_color_texture", handles.white);
+    return inputs;
+}
+
 RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
     RasterDesc desc;
     desc.cull = faces.culled;
     desc.depth_bias = faces.pushed;
     desc.color_mask = faces.depth_only ? 0 : 0xF;
-    desc.vertex = {ShaderKind::vertex, "gbuffer.vert", vertex_text};
+    const std::string head = include_line("shadow/view/view.glsl") + gbuffer_inputs({}, {}).text();
+    desc.vertex = {ShaderKind::vertex, "gbuffer.vert", head + vertex_text};
     if (surface.masked || !faces.depth_only) {
         desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag",
                                      std::string(surface.masked ? "#define GN_MASKED\n" : "") +
-                                         (surface.textured ? "#define GN_TEXTURED\n" : "") + fragment_text};
+                                         (surface.textured ? "#define GN_TEXTURED\n" : "") + head + fragment_text};
     }
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_GREATER;
@@ -233,6 +238,7 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
     samples.emission = target(graph, "emission", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
     samples.depth = target(graph, "depth", VK_FORMAT_D32_SFLOAT_S8_UINT, width, height);
 
+    const ShaderInputs inputs = gbuffer_inputs(samples.constants, handles);
     graph.add_pass(
         "view samples",
         [&](PassBuilder& pass) {
@@ -243,22 +249,13 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
             pass.depth(samples.depth, Load::clear, {.depth = 0.0F});
             pass.vertices(handles.positions);
             pass.indices(handles.indices);
-            for (const BufferHandle buffer :
-                 {handles.positions, handles.normals, handles.uvs, handles.colors, handles.indices}) {
-                pass.storage_read(buffer);
-            }
+            inputs.declare(pass);
             sample_textures(pass, handles);
         },
-        [samples, handles, scene = scene.scene](Recorder& r) {
-            r.set_value("u", samples.constants);
-            r.set("Normals", handles.normals);
-            r.set("Uvs", handles.uvs);
-            r.set("Colors", handles.colors);
-            r.set("Positions", handles.positions);
-            r.set("Indices", handles.indices);
+        [inputs, handles, scene = scene.scene](Recorder& r) {
+            inputs.set(r);
             r.vertex_buffer(handles.positions);
             r.index_buffer(handles.indices);
-            r.set("base_color_texture", handles.white);
             for (std::size_t round = 0; round < rounds.size(); ++round) {
                 draw_objects(r, *scene, handles, round);
             }

@@ -18,8 +18,6 @@ namespace gn {
 namespace {
 
 constexpr const char* vertex_text = R"(
-#include "shadow/casters/tiles.glsl"
-layout(binding = 0, scalar) readonly buffer Views { GnLightView views[]; };
 #ifdef GN_TILES
 layout(push_constant) uniform Push { int layer; };
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
@@ -189,8 +187,8 @@ struct Push {
 };
 
 RasterDesc edge_pipeline(const ShaderInputs& inputs, bool tiles) {
-    // The block Views comes first.
-    const std::string head = (tiles ? "#define GN_TILES\n" : "") + inputs.text(1);
+    const std::string head =
+        (tiles ? "#define GN_TILES\n" : "") + include_line("shadow/casters/tiles.glsl") + inputs.text();
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, "silhouettes.vert", head + vertex_text};
     desc.fragment = ShaderSource{ShaderKind::fragment, "silhouettes.frag", head + fragment_text};
@@ -202,7 +200,7 @@ RasterDesc edge_pipeline(const ShaderInputs& inputs, bool tiles) {
 /// What every view's pass draws with.
 struct EdgeDraw {
     std::shared_ptr<const RasterDesc> shader;
-    ShaderInputs inputs, view_inputs;
+    ShaderInputs inputs;
     BufferHandle tile_draw;  ///< with tiles
     std::uint32_t edges = 0;
 };
@@ -214,7 +212,6 @@ void draw_edges(Recorder& r, const EdgeDraw& draw, const LightViews& views, cons
                   static_cast<std::uint32_t>(rect.z), static_cast<std::uint32_t>(rect.w));
     }
     r.bind(*draw.shader);
-    draw.view_inputs.set(r);
     draw.inputs.set(r);
     r.push_value(Push{static_cast<int>(view.index), static_cast<int>(view.layer)});
     views.tiles ? r.draw_indirect(draw.tile_draw) : r.draw(6 * draw.edges);
@@ -234,7 +231,7 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     const TextureHandle nearest_edge = graph.create(desc);
 
     const std::shared_ptr<const SilhouetteEdges> edges = edges_of(input);
-    ShaderInputs inputs;
+    ShaderInputs inputs = view_list(views);
     inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions);
     inputs.buffer("readonly buffer", "Indices", "uvec3 triangles[];", input.handles.indices);
     inputs.buffer("readonly buffer", "Edges", "uvec2 edges[];", graph.import(edges->edges));
@@ -243,8 +240,8 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
     inputs.texture("sampler2DArray", "depth_map", depth);
     const auto shader = made_once(input.prepared, "silhouettes", views.tiles ? 1 : 0,
                                   [&] { return edge_pipeline(inputs, views.tiles); });
-    const EdgeDraw draw{shader, inputs, view_inputs(views),
-                        views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{}, edges->count};
+    const EdgeDraw draw{shader, inputs, views.tiles ? add_tile_draw(input, views, 6 * edges->count) : BufferHandle{},
+                        edges->count};
     const ClearValue middle{.color = vec4(glsl::gn_silhouette_pack(vec2(0.5F)), 0, 0, 0)};
     LightViews drawn = views;
     drawn.layered = false;
@@ -259,7 +256,6 @@ TextureHandle add_silhouette_points(const FrameInput& input, const LightViews& v
                     pass.indirect(draw.tile_draw);
                 }
                 draw.inputs.declare(pass);
-                draw.view_inputs.declare(pass);
             },
             [edges, draw, views, view](Recorder& r) {
                 if (draw.edges > 0) {
