@@ -70,7 +70,9 @@ double recording_ms(Bench& bench, const std::string& scene_name, const Row& row)
                 graph.keep(shadows.back());
             }
             if (row.whole_frame) {
-                graph.keep(add_shading({device, graph, scene, casters.handles, samples}, shadows));
+                FrameInput whole{device, graph, scene, casters.handles, samples};
+                whole.prepared = &recipe;
+                graph.keep(add_shading(whole, shadows));
             }
             graph.record(frames, commands);
             ms.push_back(thread_ms() - start);
