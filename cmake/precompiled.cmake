@@ -19,7 +19,9 @@ endfunction()
 
 if(GNOMON_PRECOMPILED)
   gn_precompile(gn_precompiled_sources)
-  gn_precompile(gn_precompiled_suites <gtest/gtest.h> ${CMAKE_SOURCE_DIR}/tests/printers.h)
+  # Named without the folder of this checkout, so that a compiler cache serves all checkouts of a machine.
+  gn_precompile(gn_precompiled_suites <gtest/gtest.h> <tests/printers.h>)
+  target_include_directories(gn_precompiled_suites PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(gn_precompiled_suites PRIVATE GTest::gtest)
   target_compile_definitions(gn_precompiled_suites PRIVATE _GLIBCXX_ASSERTIONS)
 endif()

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every parameter of every part that a shipped recipe uses, at both ends of its range (choices: every one) and under every
-// choice of the part's other rows, on one small picture: visibility stays a number within [0,1].
+// Every parameter of every part that a shipped recipe uses, at both ends of its range (choices: every one), on one small
+// picture: visibility stays a number within [0,1]. The thorough sweep adds every choice of the part's other rows; sanitizers
+// see each recipe as it is shipped, since another value runs the same code.
 #include "tests/rig.h"
+#include "tests/thorough.h"
 
 #include <algorithm>
 #include <set>
@@ -75,15 +77,8 @@ bool expect_sane(LitScene& lit, const Recipe& recipe) {
 
 using Settings = std::vector<std::pair<std::string_view, std::string>>;
 
-// Sanitizers look at the same code for every choice, at several times the cost: there one combination an end is enough.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool every_choice = false;
-#else
-constexpr bool every_choice = true;
-#endif
-
-/// What is tried of a part: every end of every row, and every end under every choice of another row, which may be what
-/// makes the row count (the taps of a disc, the radius of a footprint).
+/// What is tried of a part: every end of every row, and in the thorough sweep every end under every choice of another row,
+/// which may be what makes the row count (the taps of a disc, the radius of a footprint).
 std::vector<Settings> settings_of(const Part& part) {
     std::vector<Settings> list;
     for (const ParamRow& row : part.params.rows) {
@@ -91,7 +86,7 @@ std::vector<Settings> settings_of(const Part& part) {
             list.push_back({{row.name, end}});
             for (const ParamRow& other : part.params.rows) {
                 for (const std::string_view choice : other.choices) {
-                    if (every_choice && other.name != row.name) {
+                    if (test::thorough() && other.name != row.name) {
                         list.push_back({{other.name, std::string(choice)}, {row.name, end}});
                     }
                 }
@@ -133,6 +128,9 @@ TEST_P(ParameterSweep, StaysInRangeAtBothEnds) {
     shipped.resolution = 64;
     LitScene& lit = expect_sane(under_sun(), shipped) ? under_sun() : under_lamp();
     ASSERT_TRUE(expect_sane(lit, shipped)) << "refused under the sun and under a lamp";
+    if (test::sanitized && !test::thorough()) {
+        return;
+    }
     for (const Part* part : parts_of(shipped, lit.scene)) {
         for (const Settings& settings : settings_of(*part)) {
             Recipe recipe = shipped;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a shadow is does not depend on the unit of length, nor on a triangle that strayed far away.
 #include "tests/rescaled.h"
+#include "tests/thorough.h"
 
 namespace gn {
 namespace {
@@ -31,16 +32,26 @@ struct Change {
     std::function<Scene(const Scene&)> apply;
 };
 
-/// V of every recipe under every kind of light, before and after each change.
+/// Whether a recipe meets a kind of light: in a thorough sweep every one, else one in turn, and `hard` every one.
+bool met(std::size_t recipe, std::size_t kind, const std::string& name) {
+    return test::thorough() || recipe % kinds.size() == kind || name.starts_with("hard,");
+}
+
+/// V of every recipe under the kinds of light that it meets, before and after each change.
 void expect_equal(const std::vector<std::string>& all, float slack, std::size_t most,
                   const std::vector<Change>& changes) {
-    for (const std::string& kind : kinds) {
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const std::string& kind = kinds[k];
         const Scene scene = lit_scene(kind);
         std::vector<Scene> changed;
         for (const Change& change : changes) {
             changed.push_back(change.apply(scene));
         }
-        for (const std::string& recipe : all) {
+        for (std::size_t r = 0; r < all.size(); ++r) {
+            const std::string& recipe = all[r];
+            if (!met(r, k, recipe)) {
+                continue;
+            }
             const std::vector<float> before = visibility_of(scene, recipe, size);
             for (std::size_t i = 0; i < changes.size(); ++i) {
                 if (changes[i].name == "a stray triangle" && kind == "directional" &&

@@ -2,6 +2,7 @@
 // Models made by others, good ones and bad ones, where they lie beside the source tree.
 #include "base/paths.h"
 #include "shadow/scene/testing.h"
+#include "tests/thorough.h"
 
 #include <algorithm>
 #include <chrono>
@@ -71,6 +72,9 @@ TEST_P(RealScene, LoadsCompletely) {
     const std::filesystem::path file = scenes() / GetParam().file;
     if (!std::filesystem::exists(file)) {
         GTEST_SKIP() << "skipped: " << GetParam().file << " is not here";
+    }
+    if (test::sanitized && GetParam().triangles > 1'000'000) {
+        GTEST_SKIP() << "skipped: " << GetParam().file << " takes a minute with sanitizers, which smaller files satisfy";
     }
     const Scene scene = load_scene(file.string());
     expect_sound(scene);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// How much of a long sweep runs: what fits into every change, or all of it.
+#pragma once
+
+#include <cstdlib>
+
+namespace gn::test {
+
+/// Whether GNOMON_THOROUGH is set, as `make measure` does. Without it a sweep looks at each of its rows once, and leaves
+/// their combinations out.
+inline bool thorough() {
+    return std::getenv("GNOMON_THOROUGH") != nullptr;
+}
+
+/// Whether this suite is built with the address sanitizer, under which the processor's half costs several times as much.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+}  // namespace gn::test
