@@ -15,7 +15,7 @@ namespace gn {
 
 namespace {
 
-constexpr int largest_side = 16384;
+constexpr int largest_side_read = 16384;
 // Deflate yields at most 1032 bytes for one, and a JPEG spends at least a bit on 64 pixels: fewer file bytes than
 // this cannot hold the picture that the header promises.
 constexpr std::size_t most_pixels_per_byte = std::size_t{1032} * 8;
@@ -56,9 +56,9 @@ bool jpeg_is_complete(std::span<const std::byte> bytes) {
 }
 
 void check_size(int width, int height, const std::string& what) {
-    if (width <= 0 || height <= 0 || width > largest_side || height > largest_side) {
-        fail("{}: a picture of {} x {} pixels; at most {} x {} are read", what, width, height, largest_side,
-             largest_side);
+    if (width <= 0 || height <= 0 || width > largest_side_read || height > largest_side_read) {
+        fail("{}: a picture of {} x {} pixels; at most {} x {} are read", what, width, height, largest_side_read,
+             largest_side_read);
     }
 }
 

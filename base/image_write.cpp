@@ -22,7 +22,7 @@ namespace gn {
 namespace {
 
 /// The largest side of a picture that is read, as for textures.
-constexpr int largest_side = 16384;
+constexpr int largest_side_written = 16384;
 
 /// Writes bytes beside `path`, then gives them its name in one step.
 void write_whole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -197,8 +197,8 @@ void parse_header(std::span<const unsigned char> bytes, const std::filesystem::p
     const auto& window = header.data_window;
     const long long width = static_cast<long long>(window.max_x) - window.min_x + 1;
     const long long height = static_cast<long long>(window.max_y) - window.min_y + 1;
-    if (width < 1 || height < 1 || width > largest_side || height > largest_side) {
-        fail("'{}' has {} x {} pixels; valid is 1 to {} a side", path.string(), width, height, largest_side);
+    if (width < 1 || height < 1 || width > largest_side_written || height > largest_side_written) {
+        fail("'{}' has {} x {} pixels; valid is 1 to {} a side", path.string(), width, height, largest_side_written);
     }
     for (int c = 0; c < header.num_channels; ++c) {
         header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;

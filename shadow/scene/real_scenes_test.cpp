@@ -74,7 +74,8 @@ TEST_P(RealScene, LoadsCompletely) {
         GTEST_SKIP() << "skipped: " << GetParam().file << " is not here";
     }
     if (test::sanitized && GetParam().triangles > 1'000'000) {
-        GTEST_SKIP() << "skipped: " << GetParam().file << " takes a minute with sanitizers, which smaller files satisfy";
+        GTEST_SKIP() << "skipped: " << GetParam().file
+                     << " takes a minute with sanitizers, which smaller files satisfy";
     }
     const Scene scene = load_scene(file.string());
     expect_sound(scene);
