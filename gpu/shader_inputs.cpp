@@ -20,104 +20,139 @@ std::string_view image_format(VkFormat format) {
     }
 }
 
+std::shared_ptr<ShaderInputs::List> ShaderInputs::nothing() {
+    static const auto list = std::make_shared<List>();
+    return list;
+}
+
+ShaderInputs::List& ShaderInputs::own() {
+    if (list_.use_count() > 1) {
+        list_ = std::make_shared<List>(*list_);
+    }
+    return *list_;
+}
+
 ShaderInputs& ShaderInputs::texture(std::string_view type, std::string_view name, TextureHandle handle,
                                     const SamplerDesc& sampler) {
-    entries_.push_back({.kind = Kind::texture,
-                        .name = std::string(name),
-                        .declaration = fmt::format("layout(binding = {{}}) uniform {} {};\n", type, name),
-                        .texture = handle,
-                        .sampler = sampler});
+    own().entries.push_back({.kind = Kind::texture,
+                             .name = std::string(name),
+                             .type = std::string(type),
+                             .texture = handle,
+                             .sampler = sampler});
     return *this;
 }
 
 ShaderInputs& ShaderInputs::texels(const Device& device, VkFormat format, std::string_view shape, std::string_view name,
                                    TextureHandle handle) {
     // A software driver fetches texels several times faster as those of an image.
-    const bool image_wins = device.info().cpu && !image_format(format).empty();
-    if (image_wins) {
-        image(image_format(format), "readonly", fmt::format("image{}", shape), name, handle);
+    if (device.info().cpu && !image_format(format).empty()) {
+        image(image_format(format), "readonly", std::string("image").append(shape), name, handle);
     } else {
-        texture(fmt::format("sampler{}", shape), name, handle);
+        texture(std::string("sampler").append(shape), name, handle);
     }
-    entries_.back().declaration += image_wins ? fmt::format(
-                                                    "#define {0}_texel(at) imageLoad({0}, at)\n"
-                                                    "#define {0}_size() imageSize({0}).xy\n",
-                                                    name)
-                                              : fmt::format(
-                                                    "#define {0}_texel(at) texelFetch({0}, at, 0)\n"
-                                                    "#define {0}_size() textureSize({0}, 0).xy\n",
-                                                    name);
+    own().entries.back().texels = true;
     return *this;
 }
 
 ShaderInputs& ShaderInputs::image(std::string_view format, std::string_view access, std::string_view type,
                                   std::string_view name, TextureHandle handle) {
-    entries_.push_back(
-        {.kind = Kind::image,
-         .name = std::string(name),
-         .declaration = fmt::format("layout(binding = {{}}, {}) uniform {} {} {};\n", format, access, type, name),
-         .texture = handle,
-         .reads = access != "writeonly",
-         .writes = access != "readonly"});
+    own().entries.push_back({.kind = Kind::image,
+                             .name = std::string(name),
+                             .type = std::string(type),
+                             .format = std::string(format),
+                             .access = std::string(access),
+                             .texture = handle,
+                             .writes = access != "readonly"});
     return *this;
 }
 
 ShaderInputs& ShaderInputs::buffer(std::string_view kind, std::string_view block, std::string_view members,
                                    BufferHandle handle) {
-    entries_.push_back(
-        {.kind = Kind::buffer,
-         .name = std::string(block),
-         .declaration = fmt::format("layout(binding = {{}}, scalar) {} {} {{{{ {} }}}};\n", kind, block, members),
-         .buffer = handle,
-         .writes = kind == "buffer" || kind == "writeonly buffer"});
+    own().entries.push_back({.kind = Kind::buffer,
+                             .name = std::string(block),
+                             .type = std::string(kind),
+                             .members = std::string(members),
+                             .buffer = handle,
+                             .writes = kind == "buffer" || kind == "writeonly buffer"});
     return *this;
 }
 
 ShaderInputs& ShaderInputs::block(std::string_view kind, std::string_view block, std::string_view members,
                                   std::span<const std::byte> bytes) {
-    entries_.push_back(
-        {.kind = Kind::bytes,
-         .name = std::string(block),
-         .declaration = fmt::format("layout(binding = {{}}, scalar) {} {} {{{{ {} }}}};\n", kind, block, members),
-         .bytes = {bytes.begin(), bytes.end()}});
+    own().entries.push_back({.kind = Kind::bytes,
+                             .name = std::string(block),
+                             .type = std::string(kind),
+                             .members = std::string(members),
+                             .bytes = {bytes.begin(), bytes.end()}});
     return *this;
 }
 
 ShaderInputs& ShaderInputs::constant_bytes(std::string_view type, std::string_view name,
                                            std::span<const std::byte> bytes) {
-    constant_members_ += fmt::format("    {} {};\n", type, name);
-    constants_.insert(constants_.end(), bytes.begin(), bytes.end());
+    List& list = own();
+    list.constant_members.append("    ").append(type).append(" ").append(name).append(";\n");
+    list.constants.insert(list.constants.end(), bytes.begin(), bytes.end());
     return *this;
 }
 
 ShaderInputs& ShaderInputs::add(const ShaderInputs& others) {
-    entries_.insert(entries_.end(), others.entries_.begin(), others.entries_.end());
-    constant_members_ += others.constant_members_;
-    constants_.insert(constants_.end(), others.constants_.begin(), others.constants_.end());
+    const std::shared_ptr<const List> more = others.list_;
+    List& list = own();
+    list.entries.insert(list.entries.end(), more->entries.begin(), more->entries.end());
+    list.constant_members += more->constant_members;
+    list.constants.insert(list.constants.end(), more->constants.begin(), more->constants.end());
     return *this;
+}
+
+std::string ShaderInputs::declaration(const Entry& entry, unsigned binding) {
+    std::string text;
+    switch (entry.kind) {
+        case Kind::texture:
+            text = fmt::format("layout(binding = {}) uniform {} {};\n", binding, entry.type, entry.name);
+            break;
+        case Kind::image:
+            text = fmt::format("layout(binding = {}, {}) uniform {} {} {};\n", binding, entry.format, entry.access,
+                               entry.type, entry.name);
+            break;
+        case Kind::buffer:
+        case Kind::bytes:
+            text = fmt::format("layout(binding = {}, scalar) {} {} {{ {} }};\n", binding, entry.type, entry.name,
+                               entry.members);
+            break;
+    }
+    if (entry.texels && entry.kind == Kind::image) {
+        text +=
+            fmt::format("#define {0}_texel(at) imageLoad({0}, at)\n#define {0}_size() imageSize({0}).xy\n", entry.name);
+    } else if (entry.texels) {
+        text += fmt::format("#define {0}_texel(at) texelFetch({0}, at, 0)\n#define {0}_size() textureSize({0}, 0).xy\n",
+                            entry.name);
+    }
+    return text;
 }
 
 std::string ShaderInputs::text(unsigned first) const {
     std::string text;
-    for (const Entry& entry : entries_) {
-        text += fmt::format(fmt::runtime(entry.declaration), first++);
+    for (const Entry& entry : list_->entries) {
+        text += declaration(entry, first++);
     }
-    if (!constants_.empty()) {
-        text += fmt::format("layout(binding = {}, scalar) uniform Constants {{\n{}}} u;\n", first, constant_members_);
+    if (!list_->constants.empty()) {
+        text +=
+            fmt::format("layout(binding = {}, scalar) uniform Constants {{\n{}}} u;\n", first, list_->constant_members);
     }
     return text;
 }
 
 void ShaderInputs::hash(Hasher& hasher) const {
-    hasher.value(entries_.size());
-    for (const Entry& entry : entries_) {
-        hasher.text(entry.declaration);
+    hasher.value(list_->entries.size());
+    for (const Entry& entry : list_->entries) {
+        hasher.value(entry.kind).value(entry.texels).text(entry.name).text(entry.type).text(entry.format);
+        hasher.text(entry.access).text(entry.members);
     }
-    hasher.text(constant_members_);
+    hasher.text(list_->constant_members);
 }
 
 void ShaderInputs::declare(PassBuilder& pass) const {
-    for (const Entry& entry : entries_) {
+    for (const Entry& entry : list_->entries) {
         if (entry.kind == Kind::texture) {
             pass.sample(entry.texture);
         } else if (entry.kind == Kind::image && entry.writes) {
@@ -133,7 +168,7 @@ void ShaderInputs::declare(PassBuilder& pass) const {
 }
 
 void ShaderInputs::set(Recorder& r) const {
-    for (const Entry& entry : entries_) {
+    for (const Entry& entry : list_->entries) {
         switch (entry.kind) {
             case Kind::texture: r.set(entry.name, entry.texture, entry.sampler); break;
             case Kind::image: r.set_storage(entry.name, entry.texture); break;
@@ -141,8 +176,8 @@ void ShaderInputs::set(Recorder& r) const {
             case Kind::bytes: r.set_bytes(entry.name, entry.bytes); break;
         }
     }
-    if (!constants_.empty()) {
-        r.set_bytes("u", constants_);
+    if (!list_->constants.empty()) {
+        r.set_bytes("u", list_->constants);
     }
 }
 

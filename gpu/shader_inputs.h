@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a composed shader reads and writes beyond its pass's attachments, by name: one list makes the declarations with
 // their binding numbers, the pass's declaration of use, and what is bound when it is recorded. Nobody counts bindings, and
-// a block's bytes stand in the order of its members because both come from the same call.
+// a block's bytes stand in the order of its members because both come from the same call. A copy costs nothing until it
+// becomes another, and GLSL is written when it is asked for: a steady frame asks for none.
 #pragma once
 
 #include "gpu/frame_graph.h"
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,16 +54,27 @@ class ShaderInputs {
     enum class Kind { texture, image, buffer, bytes };
     struct Entry {
         Kind kind = Kind::texture;
-        std::string name, declaration;
+        std::string name, type;      ///< of blocks the kind
+        std::string format, access;  ///< of images
+        std::string members;         ///< of blocks
+        bool texels = false;         ///< read one by one
         TextureHandle texture{};
         BufferHandle buffer{};
         SamplerDesc sampler{};
-        bool reads = true, writes = false;
-        std::vector<std::byte> bytes;
+        bool writes = false;
+        std::vector<std::byte> bytes{};
     };
-    std::vector<Entry> entries_;
-    std::string constant_members_;
-    std::vector<std::byte> constants_;
+    struct List {
+        std::vector<Entry> entries;
+        std::string constant_members;
+        std::vector<std::byte> constants;
+    };
+    static std::shared_ptr<List> nothing();
+    static std::string declaration(const Entry& entry, unsigned binding);
+    /// The list, for adding: one of its own.
+    List& own();
+
+    std::shared_ptr<List> list_ = nothing();
 };
 
 /// The key of a shader of which these inputs are all that differs; more may be added to it.

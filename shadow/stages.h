@@ -59,6 +59,7 @@ SceneGpu upload_scene(Device& device, const Scene& scene);
 void refresh_scene(Device& device, SceneGpu& scene);
 
 struct DrawnCasters;  // shadow/casters/drawn.h
+struct LightReach;    // shadow/geometry/potential_receivers.h
 
 /// The scene's buffers in one frame's graph.
 struct SceneHandles {
@@ -133,6 +134,8 @@ struct FrameInput {
     std::vector<std::string_view> sides;       ///< what lookups are asked to tell beside V
     bool translucent = false;          ///< maps hold the translucent casters instead of the opaque and masked ones
     const ViewSamples* few = nullptr;  ///< lookups give V of these alone, some of `samples`; null: of all
+    std::shared_ptr<LightReach>
+        reach{};  ///< what whole_light() reaches, worked out once; null: whenever it is asked for
     [[nodiscard]] const Light& light() const {
         GN_CHECK(source != nullptr);
         return *source;

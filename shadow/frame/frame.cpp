@@ -4,6 +4,7 @@
 
 #include "shadow/casters/kept_map.h"
 #include "shadow/frame/map_memory.h"
+#include "shadow/geometry/potential_receivers.h"
 #include "shadow/light/weighted.h"
 #include "shadow/map/derived.h"
 #include "shadow/placement/place.h"
@@ -28,6 +29,7 @@ FrameInput seen_by(const FrameInput& input, const ViewSamples& samples) {
     other.parent = input.parent;
     other.sides = input.sides;
     other.translucent = input.translucent;
+    other.reach = input.reach;
     return other;
 }
 
@@ -92,10 +94,15 @@ Visibility add_one_light(const FrameInput& input, const Recipe& recipe) {
 Visibility add_shadow(const FrameInput& input, const Recipe& recipe) {
     check_recipe(recipe, input.scene, input.light(), input.device);
 
-    FrameInput asking = input;
-    asking.sides = needed_sides(recipe);
+    FrameInput asking = remembering(input);
     const auto serve = [&](const FrameInput& light) { return add_one_light(light, recipe); };
-    Visibility visibility = recipe.light != nullptr ? add_weighted(input, recipe, serve) : serve(asking);
+    Visibility visibility;
+    if (recipe.light != nullptr) {
+        visibility = add_weighted(asking, recipe, serve);
+    } else {
+        asking.sides = needed_sides(recipe);
+        visibility = serve(asking);
+    }
     for (const Part* part : recipe.visibility) {
         // What the lookup told stays beside V.
         std::vector<Offer> sides = visibility.sides;

@@ -24,9 +24,17 @@ std::vector<Plane> frustum_of(const FrameInput& input, double near, double far) 
     return frustum_planes(input.samples.camera, aspect, near, far);
 }
 
-}  // namespace
+LightReach::Found& remembered(const FrameInput& input) {
+    const uvec2 size(input.samples.width, input.samples.height);
+    for (LightReach::Found& found : input.reach->found) {
+        if (found.size == size) {
+            return found;
+        }
+    }
+    return input.reach->found.emplace_back(LightReach::Found{.size = size});
+}
 
-Box seen_bounds(const FrameInput& input) {
+Box find_seen_bounds(const FrameInput& input) {
     const auto kept = input.derive("cluster bounds", 0, [&] { return cluster_bounds(input.scene); });
     const std::vector<Box>& clusters = *kept;
     if (clusters.size() == 1) {
@@ -44,9 +52,38 @@ Box seen_bounds(const FrameInput& input) {
     return seen.empty() ? input.scene.bounds_ws : seen;
 }
 
+}  // namespace
+
+FrameInput remembering(const FrameInput& input) {
+    FrameInput same = input;
+    same.reach = std::make_shared<LightReach>();
+    return same;
+}
+
+Box seen_bounds(const FrameInput& input) {
+    if (input.reach == nullptr) {
+        return find_seen_bounds(input);
+    }
+    std::optional<Box>& seen_ws = remembered(input).seen_ws;
+    if (!seen_ws) {
+        seen_ws = find_seen_bounds(input);
+    }
+    return *seen_ws;
+}
+
 ConvexBody potential_receivers(const FrameInput& input) {
-    return potential_receivers(input, static_cast<double>(input.samples.camera.near),
-                               static_cast<double>(input.samples.camera.far));
+    const auto find = [&] {
+        const Camera& camera = input.samples.camera;
+        return potential_receivers(input, static_cast<double>(camera.near), static_cast<double>(camera.far));
+    };
+    if (input.reach == nullptr) {
+        return find();
+    }
+    if (!remembered(input).receivers) {
+        ConvexBody found = find();
+        remembered(input).receivers = std::move(found);
+    }
+    return *remembered(input).receivers;
 }
 
 ConvexBody potential_receivers(const FrameInput& input, double near, double far) {

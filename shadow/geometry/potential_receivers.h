@@ -7,7 +7,23 @@
 #include "shadow/geometry/convex_body.h"
 #include "shadow/stages.h"
 
+#include <optional>
+#include <vector>
+
 namespace gn {
+
+/// What potential_receivers and seen_bounds found for a light of a frame, by the size of the picture: placement asks, the
+/// lookup asks, and so does every light that serves it.
+struct LightReach {
+    struct Found {
+        uvec2 size;
+        std::optional<Box> seen_ws;
+        std::optional<ConvexBody> receivers;
+    };
+    std::vector<Found> found;
+};
+/// The input with a place to remember them in.
+FrameInput remembering(const FrameInput& input);
 
 /// The bounds of what the camera can see: of the scene's clusters that meet its frustum, so that a triangle that strayed
 /// far away widens no map and no depth range. All of the scene where the camera sees none.
