@@ -248,6 +248,12 @@ void FrameGraph::compile() {
     impl_->run_through(warmer);
 }
 
+std::vector<PipelineOrder> FrameGraph::missing() {
+    PipelineFinder finder(impl_->device, impl_->declaration);
+    impl_->run_through(finder);
+    return std::move(finder.missing);
+}
+
 void FrameGraph::find_shaders(const std::function<void(const ShaderSource&)>& found) {
     ShaderFinder finder(impl_->declaration, found);
     impl_->run_through(finder);

@@ -171,6 +171,7 @@ struct GraphStatistics {
 };
 
 struct GraphPlan;
+struct PipelineOrder;
 class Frames;
 
 class FrameGraph {
@@ -216,6 +217,8 @@ class FrameGraph {
     /// Makes every pipeline and sampler that the passes will bind, and records nothing: what a host does before its first
     /// frame, so that none waits for a compiler. Throws Error.
     void compile();
+    /// The pipelines that the passes will bind and that are not made yet, for who makes them elsewhere. Records nothing.
+    [[nodiscard]] std::vector<PipelineOrder> missing();
     /// Tells every shader that the passes will bind, and makes nothing of it.
     void find_shaders(const std::function<void(const ShaderSource&)>& found);
     /// Culls, orders by declaration, places memory, records, submits and waits. May be called again: the same graph

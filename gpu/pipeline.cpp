@@ -52,6 +52,13 @@ std::uint64_t open_texts(const RasterDesc& desc) {
     return (desc.vertex.fingerprint ? 0U : 1U) + open(desc.geometry) + open(desc.fragment);
 }
 
+Fingerprint fingerprint(const ComputeDesc& desc) {
+    Hasher hasher;
+    hash(hasher, desc.shader);
+    hash(hasher, desc.constants);
+    return hasher.finish();
+}
+
 Fingerprint fingerprint(const RasterDesc& desc, const AttachmentFormats& formats) {
     Hasher hasher;
     hash(hasher, desc.vertex);
@@ -224,7 +231,6 @@ Pipeline PipelineCache::make(const ComputeDesc& desc) {
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = module.stage(), .layout = pipeline.layout};
     GN_VK(vkCreateComputePipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
-    ++device_.counters().pipelines;
     return made.finish();
 }
 
@@ -263,24 +269,44 @@ Pipeline PipelineCache::make(const RasterDesc& desc, const AttachmentFormats& fo
                                             .pDynamicState = &fixed.dynamic,
                                             .layout = pipeline.layout};
     GN_VK(vkCreateGraphicsPipelines(device_.vk(), vk_, 1, &info, nullptr, &pipeline.vk));
-    ++device_.counters().pipelines;
     return made.finish();
+}
+
+Pipeline PipelineCache::make(const PipelineOrder& order) {
+    const std::lock_guard lock(making_);
+    return order.compute ? make(*order.compute) : make(order.raster.value(), order.formats);
+}
+
+const Pipeline& PipelineCache::keep(const Fingerprint& key, const PipelineOrder& order, Pipeline pipeline) {
+    ++device_.counters().pipelines;
+    if (device_.shaders().has_sources()) {
+        makings_.emplace(key, order.compute ? PipelineOrder{.compute = sealed(*order.compute)}
+                                            : PipelineOrder{.raster = sealed(*order.raster), .formats = order.formats});
+    }
+    return pipelines_.emplace(key, std::move(pipeline)).first->second;
+}
+
+Fingerprint PipelineCache::key_of(const PipelineOrder& order) {
+    return order.compute ? fingerprint(*order.compute) : fingerprint(order.raster.value(), order.formats);
+}
+
+void PipelineCache::take(const PipelineOrder& order, Pipeline pipeline) {
+    const Fingerprint key = key_of(order);
+    if (has(key)) {
+        destroy(pipeline);
+    } else {
+        keep(key, order, std::move(pipeline));
+    }
 }
 
 const Pipeline& PipelineCache::get(const ComputeDesc& desc) {
     device_.counters().texts += open_texts(desc);
-    Hasher hasher;
-    hash(hasher, desc.shader);
-    hash(hasher, desc.constants);
-    const Fingerprint key = hasher.finish();
+    const Fingerprint key = fingerprint(desc);
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return found->second;
     }
-    Pipeline& made = pipelines_.emplace(key, make(desc)).first->second;
-    if (device_.shaders().has_sources()) {
-        makings_.emplace(key, Making{.compute = sealed(desc)});
-    }
-    return made;
+    const PipelineOrder order{.compute = desc};
+    return keep(key, order, make(order));
 }
 
 const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentFormats& formats) {
@@ -289,11 +315,8 @@ const Pipeline& PipelineCache::get(const RasterDesc& desc, const AttachmentForma
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return found->second;
     }
-    Pipeline& made = pipelines_.emplace(key, make(desc, formats)).first->second;
-    if (device_.shaders().has_sources()) {
-        makings_.emplace(key, Making{.raster = sealed(desc), .formats = formats});
-    }
-    return made;
+    const PipelineOrder order{.raster = desc, .formats = formats};
+    return keep(key, order, make(order));
 }
 
 ShaderSource fullscreen_vertex_shader() {

@@ -69,6 +69,7 @@ std::shared_ptr<const void> PipelineCache::remake(const std::set<Fingerprint>& s
             }
         }
     };
+    const std::lock_guard lock(making_);
     const auto held = std::make_shared<Held>(Held{*this, {}});
     for (const auto& [key, making] : makings_) {
         if (making.compute && reaches(making.compute->shader)) {
@@ -78,6 +79,7 @@ std::shared_ptr<const void> PipelineCache::remake(const std::set<Fingerprint>& s
             held->pipelines.emplace(key, make(*making.raster, making.formats));
         }
     }
+    device_.counters().pipelines += held->pipelines.size();
     for (auto& [key, pipeline] : held->pipelines) {
         std::swap(pipelines_.at(key), pipeline);
     }

@@ -4,9 +4,11 @@
 
 #include "gpu/frame_graph.h"
 #include "gpu/hash.h"
+#include "gpu/pipeline.h"
 #include "gpu/shader_cache.h"
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 
@@ -41,6 +43,14 @@ struct Pipeline {
 /// One set of bindings from several stages. Throws Error naming the variable where stages disagree.
 std::vector<PipelineBinding> merge_bindings(std::span<const CompiledShader* const> stages);
 
+/// What a pipeline is made of.
+struct PipelineOrder {
+    std::optional<ComputeDesc> compute;  ///< one of the two
+    std::optional<RasterDesc> raster;
+    AttachmentFormats formats;
+};
+
+/// Everything but make is called by the thread that records.
 class PipelineCache {
   public:
     /// `folder` holds what the driver compiled from run to run; empty: nothing is kept on disk.
@@ -52,6 +62,13 @@ class PipelineCache {
     const Pipeline& get(const ComputeDesc& desc);
     const Pipeline& get(const RasterDesc& desc, const AttachmentFormats& formats);
     VkSampler sampler(const SamplerDesc& desc);
+    /// By what a pipeline is known, and whether get would find it.
+    [[nodiscard]] static Fingerprint key_of(const PipelineOrder& order);
+    [[nodiscard]] bool has(const Fingerprint& key) const { return pipelines_.contains(key); }
+    /// Makes a pipeline that nobody has yet, for take. Any thread may call it; one at a time makes, and get waits for it.
+    Pipeline make(const PipelineOrder& order);
+    /// Keeps what make gave; what is there already stays.
+    void take(const PipelineOrder& order, Pipeline pipeline);
     /// Makes the pipelines of these shaders anew, from what the device's shaders are now, and holds those of before as long as
     /// the result lives: frames in flight may still use them. Throws Error where one cannot be made; then all stay as they
     /// were. Only where shaders have sources.
@@ -63,12 +80,7 @@ class PipelineCache {
     void save();
 
   private:
-    /// What a pipeline was made of, for making it again.
-    struct Making {
-        std::optional<ComputeDesc> compute;
-        std::optional<RasterDesc> raster;
-        AttachmentFormats formats;
-    };
+    const Pipeline& keep(const Fingerprint& key, const PipelineOrder& order, Pipeline pipeline);
     void load();
     Pipeline make(const ComputeDesc& desc);
     Pipeline make(const RasterDesc& desc, const AttachmentFormats& formats);
@@ -82,7 +94,8 @@ class PipelineCache {
     VkPipelineCache vk_ = VK_NULL_HANDLE;
     std::size_t saved_ = 0;  ///< pipelines that the disk knows
     std::map<Fingerprint, Pipeline> pipelines_;
-    std::map<Fingerprint, Making> makings_;  ///< of all of them where shaders have sources, else empty
+    std::mutex making_;                             ///< held by who makes: the compiler of shaders knows one thread
+    std::map<Fingerprint, PipelineOrder> makings_;  ///< of all of them where shaders have sources, else empty
     std::map<Fingerprint, VkSampler> samplers_;
 };
 

@@ -66,6 +66,28 @@ class PipelineWarmer final : public SilentRecorder {
     AttachmentFormats formats_;
 };
 
+/// Tells which pipelines are bound and not there yet, each once.
+class PipelineFinder final : public SilentRecorder {
+  public:
+    PipelineFinder(Device& device, const GraphDeclaration& declared) : SilentRecorder(declared), device_(device) {}
+
+    void begin(const DeclaredPass& pass) override { formats_ = attachment_formats(declaration, pass); }
+    void bind(const ComputeDesc& desc) override { find({.compute = desc}); }
+    void bind(const RasterDesc& desc) override { find({.raster = desc, .formats = formats_}); }
+    std::vector<PipelineOrder> missing;
+
+  private:
+    void find(PipelineOrder order) {
+        const Fingerprint key = PipelineCache::key_of(order);
+        if (!device_.pipelines().has(key) && found_.insert(key).second) {
+            missing.push_back(std::move(order));
+        }
+    }
+    std::set<Fingerprint> found_;
+    Device& device_;
+    AttachmentFormats formats_;
+};
+
 /// Tells which shaders are bound.
 class ShaderFinder final : public SilentRecorder {
   public:

@@ -27,11 +27,6 @@ void check_parts(const Recipe& recipe) {
     }
 }
 
-/// The recipe as it is asked for.
-std::string text_of(const Recipe& recipe) {
-    return recipe.name + (recipe.overrides.empty() ? "" : ",") + recipe.overrides;
-}
-
 /// Throws Error where a recipe that goes by name has no file in the folder.
 void demand_recipe(const BakedShaders& baked, const std::string& text) {
     const std::string name = text.substr(0, text.find(','));
@@ -69,13 +64,19 @@ std::shared_ptr<ShaderCompiler> shaders_for(const Info& info, const std::shared_
 
 }  // namespace
 
+std::string text_of(const Recipe& recipe) {
+    return recipe.name + (recipe.overrides.empty() ? "" : ",") + recipe.overrides;
+}
+
 Shadows::State::State(const Info& asked, std::shared_ptr<const BakedShaders> found, std::unique_ptr<Device> given)
     : info(asked),
       baked(std::move(found)),
       device(given != nullptr ? std::move(given) : Device::adopt(info.device, shaders_for(info, baked))),
       frames(*device, info.limits.frames_in_flight),
       images(*device, frames),
-      casters(*device) {}
+      casters(*device) {
+    forget_history();
+}
 
 /// Nothing is kept from before; frames in flight still read what was.
 void Shadows::State::forget_history() {
@@ -83,14 +84,25 @@ void Shadows::State::forget_history() {
     history = std::make_shared<History>(*device);
 }
 
-void Shadows::State::prepare(const std::string& text) {
+std::shared_ptr<const PreparedRecipe> Shadows::State::load(const std::string& text) const {
     if (baked != nullptr) {
         demand_recipe(*baked, text);
     }
     Recipe loaded = load_recipe(text, baked != nullptr ? baked->folder() : info.data);
     check_parts(loaded);
+    return std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
+}
+
+std::string Shadows::State::missing_from(const PreparedRecipe& with, const MissingShader& missing) const {
+    const std::string text = text_of(with.recipe());
+    return fmt::format("recipe '{}': {}; this makes it: {}", text, missing.what(), baked->command_with(text));
+}
+
+void Shadows::State::set(std::shared_ptr<const PreparedRecipe> next) {
+    awaited.reset();
+    failed.clear();
     frames.retire(recipe);
-    recipe = std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
+    recipe = std::move(next);
     forget_history();
 }
 
@@ -129,7 +141,8 @@ std::vector<FrameLight> take_lights(Scene& scene, const Frame& frame) {
 
 }  // namespace
 
-Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, const Frame& frame) const {
+Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, const Frame& frame,
+                                 const PreparedRecipe& with) const {
     // What the renderer lends.
     graph.group("lent");
     const SceneHandles geometry = lenders.casters.add(graph, lenders.frames, frame.casters);
@@ -139,13 +152,13 @@ Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, cons
         info.receivers.normals != Normals::none
             ? lenders.images.import(graph, "normals", frame.receivers.normals, VK_IMAGE_USAGE_SAMPLED_BIT)
             : TextureHandle{};
-    const ViewSamples receivers = add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals,
-                                                     frame.casters.bounds_ws, recipe.get());
+    const ViewSamples receivers =
+        add_lent_receivers(graph, info.receivers, frame.receivers, depth, normals, frame.casters.bounds_ws, &with);
 
     // The shadows.
     const std::vector<FrameLight> lights = take_lights(lenders.casters.scene(), frame);
     const std::vector<LightShadow> shadows = add_frame(graph, receivers, {lenders.casters.scene(), geometry}, lights,
-                                                       *recipe, &lenders.history, &lenders.late_remarks);
+                                                       with, &lenders.history, &lenders.late_remarks);
 
     // What it gets.
     graph.group("lent");
@@ -153,11 +166,25 @@ Foreseen Shadows::State::declare(FrameGraph& graph, const Lenders& lenders, cons
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const TextureHandle target =
             lenders.images.import(graph, "visibility", frame.lights[i].visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target,
-                 recipe.get());
+        add_copy(graph, shadows[i].refused.empty() ? shadows[i].visibility.image : TextureHandle{}, target, &with);
         declared.refused.push_back(shadows[i].refused);
     }
     declared.casters = geometry.drawn != nullptr ? geometry.drawn->formats : CasterFormats{};
+    return declared;
+}
+
+Foreseen Shadows::State::declare_lit(FrameGraph& graph, const Frame& frame) {
+    Foreseen declared;
+    graph.group("lent");
+    for (const LentLight& light : frame.lights) {
+        const TextureHandle target =
+            images.import(graph, "visibility", light.visibility, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+        add_copy(graph, {}, target, nullptr);
+        declared.refused.push_back(
+            awaited != nullptr ? fmt::format("the pipelines of recipe '{}' are being made; until they are there V is 1",
+                                             text_of(awaited->recipe()))
+                               : failed);
+    }
     return declared;
 }
 
@@ -168,7 +195,9 @@ Foreseen Shadows::State::begin(FrameGraph& graph, const Frame& frame) {
     if (frame.cut) {
         forget_history();
     }
-    return declare(graph, {frames, images, casters, *history, late_remarks}, frame);
+    take_awaited(frame);
+    return recipe != nullptr ? declare(graph, {frames, images, casters, *history, late_remarks}, frame, *recipe)
+                             : declare_lit(graph, frame);
 }
 
 std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
@@ -178,8 +207,7 @@ std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const 
     try {
         graph.record(frames, commands);
     } catch (const MissingShader& missing) {
-        fail("recipe '{}': {}; this makes it: {}", text_of(recipe->recipe()), missing.what(),
-             baked->command_with(text_of(recipe->recipe())));
+        fail("{}", missing_from(*recipe, missing));
     }
     images.give_back(commands);
     history->advance();
@@ -187,6 +215,7 @@ std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const 
 }
 
 std::size_t Shadows::State::reload() {
+    compiler.reset();  // shaders are compiled by one thread at a time
     Reloaded reloaded = reload_shaders(*device);
     if (reloaded.shaders > 0) {
         frames.retire(std::move(reloaded.before));
@@ -209,14 +238,15 @@ Result<Shadows> Shadows::create(const Info& info, std::unique_ptr<Device> device
     return guarded<Shadows>([&] {
         auto baked = info.baked.empty() ? nullptr : std::make_shared<const BakedShaders>(info.baked);
         auto state = std::make_unique<State>(info, std::move(baked), std::move(device));
-        state->prepare(info.recipe);
+        auto recipe = state->load(info.recipe);
+        info.in_background ? state->await(std::move(recipe)) : state->set(std::move(recipe));
         return Shadows(std::move(state));
     });
 }
 
 Result<Done> Shadows::set_recipe(const std::string& recipe) noexcept {
     return guarded<Done>([&] {
-        state_->prepare(recipe);
+        state_->set(state_->load(recipe));
         return Done{};
     });
 }
@@ -233,7 +263,7 @@ std::string Shadows::refuses(const GnLight& light) const noexcept {
         Scene scene;
         scene.materials.emplace_back();
         scene.lights = {Light{.name = "asked", .shape = light}};
-        check_recipe(state_->recipe->recipe(), scene, scene.lights.front(), *state_->device);
+        check_recipe(state_->present().recipe(), scene, scene.lights.front(), *state_->device);
         return Done{};
     });
     return checked.ok() ? "" : checked.why();

@@ -57,10 +57,13 @@ struct Limits {
 struct Info {
     AdoptedDevice device;
     std::string recipe = "pcf";  ///< a name or a file, with overrides
+    /// The recipe's pipelines are made by a thread, as prepare_recipe makes another one's: until all are there V is 1, and record
+    /// says so for every light. Else the first frame of a kind waits for what it binds.
+    bool in_background = false;
     Limits limits;
     ReceiverForm receivers;
     /// A folder that `gnomon bake` wrote for the recipes: compiled shaders and the recipes' files. Then nothing is compiled, and
-    /// no other file is read.
+    /// no other file is read; a recipe of which a shader is missing is refused when it is chosen.
     std::filesystem::path baked;
     /// Without `baked`: the folder of recipes/ and of the shader functions; empty: the program's own (base/paths.h).
     std::filesystem::path data;
@@ -149,6 +152,12 @@ struct Foreseen {
     VkDeviceSize persistent_bytes = 0;  ///< of what outlives frames: the casters' mesh, kept maps, tables
 };
 
+/// How a recipe that was asked for ahead comes along.
+struct Preparation {
+    std::string recipe;  ///< whose pipelines are awaited; "": none
+    std::string failed;  ///< why the one asked for last never comes, a sentence or ""
+};
+
 /// Shadows for one view of one renderer. Not thread-safe.
 class Shadows {
   public:
@@ -179,6 +188,10 @@ class Shadows {
     void forget_images() noexcept;
     /// Another recipe or other values from the next frame on; what was kept over frames begins anew.
     Result<Done> set_recipe(const std::string& recipe) noexcept;
+    /// The same without a stall: a thread makes the pipelines, and frames go on with the recipe of before. The first frame that
+    /// finds all that it would bind is drawn with the new one. What set_recipe, or this, asked for before is awaited no longer.
+    Result<Done> prepare_recipe(const std::string& recipe) noexcept;
+    [[nodiscard]] Preparation preparation() const noexcept;
     /// In development: compiles again the shaders whose .glsl files were written since they were read, with the next frame for
     /// their first. Gives how many became others. Where one does not compile it gives the compiler's sentence, and all stay as
     /// they were. Frames in flight are not disturbed.

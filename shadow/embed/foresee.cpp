@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a frame would ask for: it is declared as record declares it, and only its plan is made.
-#include "shadow/embed/state.h"
+#include "shadow/embed/twins.h"
 
 namespace gn::embed {
 
 Foreseen Shadows::State::foresee(const Frame& frame) const {
     check(frame);
-    Frames none(*device, 1);
-    LentImages missing(*device, none, true);
-    LentCasters mesh = casters.twin();
-    History first(*device);
-    std::set<std::string> remarks;
-    missing.begin(frame.receivers.width, frame.receivers.height);
+    Twins twins(*device, casters);
     FrameGraph graph(*device);
-    Foreseen foreseen = declare(graph, {none, missing, mesh, first, remarks}, frame);
+    Foreseen foreseen = declare(graph, twins.lend(frame), frame, present());
 
     static_cast<void>(graph.plan());
     const GraphStatistics& planned = graph.statistics();

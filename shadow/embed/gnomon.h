@@ -60,8 +60,9 @@ typedef struct GnomonInfo {
     uint32_t frames_in_flight;
     GnomonNormals normals;
     bool reversed_depth;
-    const char* baked; /* a folder that `gnomon bake` wrote, or NULL */
-    const char* data;  /* without it: the folder of recipes and shader functions, or NULL for the program's own */
+    const char* baked;  /* a folder that `gnomon bake` wrote, or NULL */
+    const char* data;   /* without it: the folder of recipes and shader functions, or NULL for the program's own */
+    bool in_background; /* a thread makes the recipe's pipelines, and V is 1 until all are there */
 } GnomonInfo;
 
 typedef struct GnomonImage {
@@ -181,6 +182,10 @@ const char* gnomon_foresee(GnomonShadows* shadows, const GnomonFrame* frame, Gno
 /* Why the recipe serves no such light, or NULL. */
 const char* gnomon_refuses(const GnomonShadows* shadows, const GnomonLight* light);
 const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe);
+/* The same without a stall: a thread makes the pipelines, and frames go on with the recipe of before until all are there. */
+const char* gnomon_prepare_recipe(GnomonShadows* shadows, const char* recipe);
+/* Why the recipe that was asked for last never comes, or NULL; `awaited`, when it is not NULL, says whether it is to come. */
+const char* gnomon_preparation(const GnomonShadows* shadows, bool* awaited);
 void gnomon_forget_images(GnomonShadows* shadows);
 /* In development: compiles shaders again whose files were written since; `changed`, when it is not NULL, becomes their number. */
 const char* gnomon_reload(GnomonShadows* shadows, size_t* changed);

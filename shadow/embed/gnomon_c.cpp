@@ -114,6 +114,7 @@ Info info_of(const GnomonInfo& c) {
     info.receivers = {.reversed_depth = c.reversed_depth, .normals = static_cast<Normals>(c.normals)};
     info.baked = c.baked != nullptr ? c.baked : "";
     info.data = c.data != nullptr ? c.data : "";
+    info.in_background = c.in_background;
     return info;
 }
 
@@ -273,6 +274,25 @@ const char* gnomon_set_recipe(GnomonShadows* shadows, const char* recipe) {
     return sentence_of([&] {
         given(shadows, "shadows");
         value_of(shadows->shadows.set_recipe(&given(recipe, "the recipe")));
+    });
+}
+
+const char* gnomon_prepare_recipe(GnomonShadows* shadows, const char* recipe) {
+    return sentence_of([&] {
+        given(shadows, "shadows");
+        value_of(shadows->shadows.prepare_recipe(&given(recipe, "the recipe")));
+    });
+}
+
+const char* gnomon_preparation(const GnomonShadows* shadows, bool* awaited) {
+    return sentence_of([&] {
+        const Preparation coming = given(shadows, "shadows").shadows.preparation();
+        if (awaited != nullptr) {
+            *awaited = !coming.recipe.empty();
+        }
+        if (!coming.failed.empty()) {
+            throw Error(coming.failed);
+        }
     });
 }
 

@@ -231,6 +231,13 @@ TEST(GnomonC, MistakesAreSentences) {
     EXPECT_NE(text(gnomon_set_recipe(shadows.get(), "volumes")).find("'volumes'"), std::string::npos);
     EXPECT_EQ(text(gnomon_set_recipe(shadows.get(), "hard")), "");
     EXPECT_EQ(text(gnomon_refuses(shadows.get(), in_c.lights.data())), "");
+    bool awaited = true;
+    EXPECT_EQ(text(gnomon_preparation(shadows.get(), &awaited)), "");
+    EXPECT_FALSE(awaited);
+    EXPECT_NE(text(gnomon_prepare_recipe(shadows.get(), "volumes")).find("'volumes'"), std::string::npos);
+    EXPECT_EQ(text(gnomon_prepare_recipe(shadows.get(), "pcf")), "");
+    EXPECT_EQ(text(gnomon_preparation(shadows.get(), &awaited)), "");
+    EXPECT_TRUE(awaited);
     std::size_t changed = 1;
     EXPECT_EQ(text(gnomon_reload(shadows.get(), &changed)), "");
     EXPECT_EQ(changed, 0U);
