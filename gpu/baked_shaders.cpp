@@ -127,10 +127,14 @@ BakedShaders::BakedShaders(fs::path folder) : folder_(std::move(folder)) {
     manifest_ = parse_manifest(*text, file.string());
 }
 
-std::vector<std::uint32_t> BakedShaders::load(const Fingerprint& key, const std::string& name) const {
+void BakedShaders::demand(const Fingerprint& key, const std::string& name) const {
     if (!manifest_.shaders.contains(key)) {
         throw MissingShader(fmt::format("shader '{}' is not in {}", name, folder_.string()));
     }
+}
+
+std::vector<std::uint32_t> BakedShaders::load(const Fingerprint& key, const std::string& name) const {
+    demand(key, name);
     const fs::path file = folder_ / "shaders" / (key.hex() + ".spv");
     std::error_code code;
     std::vector<std::uint32_t> spirv;

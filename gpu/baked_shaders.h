@@ -39,6 +39,8 @@ class BakedShaders {
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] const BakedManifest& manifest() const { return manifest_; }
+    /// Throws MissingShader where it was not baked.
+    void demand(const Fingerprint& key, const std::string& name) const;
     /// The shader's code. Throws MissingShader where it was not baked, Error where its file is damaged.
     [[nodiscard]] std::vector<std::uint32_t> load(const Fingerprint& key, const std::string& name) const;
     /// `gnomon bake RECIPE... -o FOLDER` with the recipes that it was baked for and one more.

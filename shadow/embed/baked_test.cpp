@@ -106,14 +106,34 @@ TEST(EmbedBaked, WhatIsMissingIsASentenceThatSaysHowToMakeIt) {
     Result<Shadows> other = make("pcf,resolution=512,bias.normal=2", folder.path);
     ASSERT_TRUE(other.ok()) << other.why();
     EXPECT_EQ(record(other.value(), renderer.frame()), "");
-    Result<Shadows> unbaked = make("pcf,placement=lispsm", folder.path);
-    ASSERT_TRUE(unbaked.ok()) << unbaked.why();
-    const std::string why = record(unbaked.value(), renderer.frame());
-    for (const std::string part :
-         {"recipe 'pcf,placement=lispsm'", "lispsm", "gnomon bake pcf pcf,placement=lispsm -o"}) {
-        EXPECT_NE(why.find(part), std::string::npos) << why;
+    for (const std::string& why :
+         {make("pcf,placement=lispsm", folder.path).why(), other.value().set_recipe("pcf,placement=lispsm").why(),
+          other.value().prepare_recipe("pcf,placement=lispsm").why()}) {
+        for (const std::string part :
+             {"recipe 'pcf,placement=lispsm'", "lispsm", "gnomon bake pcf pcf,placement=lispsm -o"}) {
+            EXPECT_NE(why.find(part), std::string::npos) << "said before any frame: " << why;
+        }
     }
-    EXPECT_NE(unbaked.value().reload().why().find("baked"), std::string::npos);
+    EXPECT_EQ(record(other.value(), renderer.frame()), "") << "with the recipe of before";
+    EXPECT_NE(other.value().reload().why().find("baked"), std::string::npos);
+}
+
+TEST(EmbedBaked, DrawsOfARenderersOwnBindNothingElse) {
+    // Moments of depths that a renderer drew are written by a shader that its buffers never need.
+    const Rehearsal found = rehearse(device(), "vsm,vsm.slope_moment=0");
+    const auto writes = [](const auto& shader) { return shader.second.name.ends_with(" from depth"); };
+    EXPECT_TRUE(std::any_of(found.shaders.begin(), found.shaders.end(), writes));
+
+    test::LentRenderer renderer(load_scene("contact"), 64, 48);
+    Result<Shadows> made = make("vsm,vsm.slope_moment=0", {});
+    ASSERT_TRUE(made.ok()) << made.why();
+    Frame frame = renderer.frame();
+    frame.casters.draw = [](const CasterView&) {};
+    const auto rehearsed = made.value().rehearse(frame, [&](const ShaderSource& source) {
+        EXPECT_TRUE(found.shaders.contains(baked_key(source))) << source.name;
+    });
+    ASSERT_TRUE(rehearsed.ok()) << rehearsed.why();
+    EXPECT_EQ(rehearsed.value(), std::vector<std::string>{""});
 }
 
 TEST(EmbedBaked, EveryFormOfReceiversIsFound) {

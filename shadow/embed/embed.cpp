@@ -90,7 +90,11 @@ std::shared_ptr<const PreparedRecipe> Shadows::State::load(const std::string& te
     }
     Recipe loaded = load_recipe(text, baked != nullptr ? baked->folder() : info.data);
     check_parts(loaded);
-    return std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
+    auto prepared = std::make_shared<const PreparedRecipe>(*device, std::move(loaded));
+    if (baked != nullptr) {
+        demand_shaders(*prepared);
+    }
+    return prepared;
 }
 
 std::string Shadows::State::missing_from(const PreparedRecipe& with, const MissingShader& missing) const {

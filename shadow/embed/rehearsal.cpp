@@ -4,6 +4,7 @@
 #include "gpu/baked_shaders.h"
 #include "gpu/memory.h"
 #include "shadow/embed/embed.h"
+#include "shadow/embed/rehearsed_lights.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,12 @@ namespace gn::embed {
 namespace {
 
 constexpr uint side = 64;  ///< pixels; the picture's size decides no shader
+
+/// How the stage's two objects are lent.
+struct StageCasters {
+    bool first_single = true, second_single = false;
+    bool drawn = false;  ///< by the renderer itself
+};
 
 /// A wall of 2 x 2 metres that stands on a floor of 8 x 8, as a renderer lends them.
 class LentStage {
@@ -39,9 +46,9 @@ class LentStage {
         }
     }
 
-    /// The first of two objects is one-sided as `first` says, the second as `second`.
-    [[nodiscard]] Frame frame(const mat4& cs_from_ws, std::span<const GnLight> lights, bool first, bool second) {
-        objects_ = {CasterObject{0, 6, 0, 4, first}, {6, 6, 4, 4, second}};
+    /// The first of two objects is one-sided as `casters` says, the second too, or the renderer draws both itself.
+    [[nodiscard]] Frame frame(const mat4& cs_from_ws, std::span<const GnLight> lights, const StageCasters& casters) {
+        objects_ = {CasterObject{0, 6, 0, 4, casters.first_single}, {6, 6, 4, 4, casters.second_single}};
         lights_.clear();
         for (const GnLight& light : lights) {
             lights_.push_back({lights_.size(), light, lend(visibility_.at(lights_.size()))});
@@ -56,7 +63,8 @@ class LentStage {
                             .indices = all,
                             .transforms = all,
                             .objects = objects_,
-                            .bounds_ws = {vec3(-4, 0, -4), vec3(4, 2, 4)}},
+                            .bounds_ws = rehearsed_bounds_ws,
+                            .draw = casters.drawn ? [](const CasterView&) {} : CasterFunction()},
                 .lights = lights_};
     }
 
@@ -70,50 +78,6 @@ class LentStage {
     std::vector<LentLight> lights_;
 };
 
-/// From 7 metres before the wall and 5 above the floor.
-mat4 camera(bool orthographic, bool reversed) {
-    Camera camera{.position_ws = vec3(0, 5, 7), .forward_ws = glm::normalize(vec3(0, -5, -7)), .far = 30};
-    camera.half_height = orthographic ? 5.0F : 0.0F;
-    mat4 turned(1);
-    if (!reversed) {
-        turned[2][2] = -1;
-        turned[3][2] = 1;
-    }
-    return turned * cs_from_vs(camera, 1) * vs_from_ws(camera);
-}
-
-constexpr uint kinds = light_kind_names.size();
-
-/// A point or a small light, and a large one; from aside, as the camera looks, against it, among what receives, and where it
-/// reaches nothing.
-constexpr std::size_t situations = 10;
-
-/// A light of every kind in one of the situations: together, as a placement serves some and leaves others to another one.
-std::array<GnLight, kinds> lights_in(std::size_t situation) {
-    const std::array from_ws{vec3(3, 6, 4), vec3(0, 5, 7), vec3(0, 4, -6), vec3(0.5F, 1, 0.5F), vec3(0, 400, 0)};
-    const vec3 p_ws = from_ws.at(situation / 2);
-    const float size = situation % 2 == 0 ? 0.0F : 0.3F;
-    const vec3 d_ws = glm::normalize(-p_ws);
-    const vec3 right_ws = glm::normalize(glm::cross(d_ws, vec3(0.1F, 0.2F, 1)));
-    GnLight light;
-    light.position_ws = vec4(p_ws, 1);
-    light.direction_ws = vec4(d_ws, 0);
-    light.right_ws = vec4(right_ws, 0);
-    light.up_ws = vec4(glm::cross(right_ws, d_ws), 0);
-    light.half_size = vec2(std::max(size, 0.01F));
-    light.radius = size;
-    light.angular_radius = 0.1F * size;
-    light.cos_inner = std::cos(0.3F);
-    light.cos_outer = std::cos(0.6F);
-    light.range = 20;
-    std::array<GnLight, kinds> lights;
-    for (uint kind = 0; kind < kinds; ++kind) {
-        lights[kind] = light;
-        lights[kind].kind = kind;
-    }
-    return lights;
-}
-
 /// One description of a device, with all frames that are rehearsed on it.
 class Run {
   public:
@@ -124,18 +88,19 @@ class Run {
     /// All lights under both cameras, with every kind of casters, and every form of receivers.
     void all() {
         Shadows shadows = create({});
-        for (std::size_t situation = 0; situation < situations; ++situation) {
-            frames(shadows, camera(false, true), situation, true, false);
-            frames(shadows, camera(true, true), situation, true, false);
+        for (std::size_t situation = 0; situation < rehearsed_situations; ++situation) {
+            frames(shadows, rehearsed_camera(false, true), situation, {});
+            frames(shadows, rehearsed_camera(true, true), situation, {});
+            frames(shadows, rehearsed_camera(false, true), situation, {.drawn = true});
         }
-        frames(shadows, camera(false, true), 0, false, false);
-        frames(shadows, camera(false, true), 0, true, true);
+        frames(shadows, rehearsed_camera(false, true), 0, {.first_single = false});
+        frames(shadows, rehearsed_camera(false, true), 0, {.second_single = true});
         for (const Normals normals : {Normals::none, Normals::signed_xyz, Normals::unsigned_xyz,
                                       Normals::signed_octahedral, Normals::unsigned_octahedral}) {
             for (const bool reversed : {false, true}) {
                 Shadows formed = create({.reversed_depth = reversed, .normals = normals});
                 for (const bool orthographic : {false, true}) {
-                    frames(formed, camera(orthographic, reversed), 0, true, false);
+                    frames(formed, rehearsed_camera(orthographic, reversed), 0, {});
                 }
             }
         }
@@ -158,8 +123,9 @@ class Run {
     }
 
     /// A first frame, one in which nothing moves, one in which casters do, and one after a cut.
-    void frames(Shadows& shadows, const mat4& cs_from_ws, std::size_t situation, bool first, bool second) {
-        Frame frame = stage_.frame(cs_from_ws, lights_in(situation), first, second);
+    void frames(Shadows& shadows, const mat4& cs_from_ws, std::size_t situation, const StageCasters& casters) {
+        const auto lights = rehearsed_lights(situation);
+        Frame frame = stage_.frame(cs_from_ws, lights, casters);
         frame.casters.topology = ++topology_;
         frame.cut = true;
         for (const std::uint64_t poses : {1, 1, 2}) {
@@ -169,7 +135,8 @@ class Run {
             if (!rehearsed.ok()) {
                 throw Error(rehearsed.why());
             }
-            for (uint kind = 0; kind < kinds; ++kind) {
+            // What draws of a renderer's own do not serve, its buffers do.
+            for (uint kind = 0; kind < rehearsed_kinds && !casters.drawn; ++kind) {
                 const std::string& why = rehearsed.value()[kind];
                 if (why.empty()) {
                     served_.insert(kind);

@@ -46,6 +46,8 @@ struct Shadows::State {
     void forget_history();
     /// Loads a recipe, checked. Throws Error.
     [[nodiscard]] std::shared_ptr<const PreparedRecipe> load(const std::string& text) const;
+    /// Throws Error where the baked folder lacks a shader that the recipe's frames bind.
+    void demand_shaders(const PreparedRecipe& with) const;
     /// One sentence, with the command that bakes it.
     [[nodiscard]] std::string missing_from(const PreparedRecipe& with, const MissingShader& missing) const;
     /// The recipe that frames are drawn with, or that they wait for. Throws Error where there is none.
