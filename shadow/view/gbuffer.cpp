@@ -10,8 +10,6 @@
 #include "shadow/scene/casting.h"
 #include "shadow/view/draw.h"
 
-#include <algorithm>
-
 namespace gn {
 namespace {
 
@@ -22,8 +20,6 @@ layout(location = 0) out vec3 out_position_ws;
 layout(location = 1) out vec3 out_normal_ws;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_color;
-layout(location = 4) flat out uint out_object;
-layout(location = 5) flat out uint out_first_triangle;
 invariant gl_Position;
 void main() {
     gl_Position = gn_view_position(u.view.cs_from_ws, vec4(in_position_ws, 1.0));
@@ -31,8 +27,6 @@ void main() {
     out_normal_ws = normals[gl_VertexIndex];
     out_uv = uvs[gl_VertexIndex];
     out_color = colors[min(gl_VertexIndex, colors.length() - 1)];
-    out_object = uint(gl_InstanceIndex);
-    out_first_triangle = first_triangles[gl_InstanceIndex];
 }
 )";
 
@@ -43,14 +37,14 @@ layout(push_constant, scalar) uniform Push {
     float roughness;
     float metallic;
     float alpha_cutoff;
+    uint first_triangle;
+    uint object_id;
     float surface;        // position.w: 2 where no shadow is received, else 1
 } push;
 layout(location = 0) in vec3 in_position_ws;
 layout(location = 1) in vec3 in_normal_ws;
 layout(location = 2) in vec2 in_uv;
 layout(location = 3) in vec4 in_color;
-layout(location = 4) flat in uint object;
-layout(location = 5) flat in uint first_triangle;
 layout(location = 0) out vec4 out_position;
 layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec4 out_shading_normal;
@@ -69,7 +63,7 @@ void main() {
     }
 #endif
     // Take the exact plane of the triangle, and move the interpolated point into it.
-    uint corner = 3u * (first_triangle + uint(gl_PrimitiveID));
+    uint corner = 3u * (push.first_triangle + uint(gl_PrimitiveID));
     vec3 a_ws = positions[indices[corner]];
     vec3 edge0 = positions[indices[corner + 1u]] - a_ws;
     vec3 edge1 = positions[indices[corner + 2u]] - a_ws;
@@ -87,8 +81,8 @@ void main() {
     out_normal = vec4(n_ws, dot(u.view.axis_ws, vec4(p_ws, 1.0)));
     out_shading_normal = vec4(shading_ws, 0.0);
     out_albedo = vec4(base_color.rgb, 1.0);
-    out_material = vec4(push.roughness, push.metallic, float(object & 255u) / 255.0,
-                        float((object >> 8) & 255u) / 255.0);
+    out_material = vec4(push.roughness, push.metallic, float(push.object_id & 255u) / 255.0,
+                        float((push.object_id >> 8) & 255u) / 255.0);
     out_emission = vec4(push.emissive, 0.0);
 }
 )";
@@ -97,6 +91,7 @@ struct Push {
     vec4 base_color;
     vec3 emissive;
     float roughness, metallic, alpha_cutoff;
+    std::uint32_t first_triangle, object_id;
     float surface;
 };
 
@@ -107,8 +102,8 @@ struct Faces {
     VkCullModeFlags culled;
     bool pushed, depth_only;
 };
-constexpr std::array round_faces{Faces{VK_CULL_MODE_BACK_BIT, false, false}, Faces{VK_CULL_MODE_FRONT_BIT, true, false},
-                                 Faces{VK_CULL_MODE_FRONT_BIT, false, true}};
+constexpr std::array rounds{Faces{VK_CULL_MODE_BACK_BIT, false, false}, Faces{VK_CULL_MODE_FRONT_BIT, true, false},
+                            Faces{VK_CULL_MODE_FRONT_BIT, false, true}};
 
 // By how much backs are pushed. Vertices are rounded to the rasterizer's grid of 1/256 pixel, in both faces alike where they
 // share corners, by different planes where they do not: four such steps. Interpolation errs by units of the depth's last
@@ -123,8 +118,7 @@ struct Surface {
 };
 
 /// What both stages read. The texture is set anew by every draw that reads one.
-ShaderInputs gbuffer_inputs(const GnViewConstants& view, const SceneHandles& handles,
-                            const std::vector<std::uint32_t>& first_triangles) {
+ShaderInputs gbuffer_inputs(const GnViewConstants& view, const SceneHandles& handles) {
     ShaderInputs inputs;
     inputs.constant("GnViewConstants", "view", view)
         .buffer("readonly buffer", "Normals", "vec3 normals[];", handles.normals)
@@ -132,9 +126,7 @@ ShaderInputs gbuffer_inputs(const GnViewConstants& view, const SceneHandles& han
         .buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors)
         .buffer("readonly buffer", "Positions", "vec3 positions[];", handles.positions)
         .buffer("readonly buffer", "Indices", "uint indices[];", handles.indices)
-        .texture("sampler2D", "base_color_texture", handles.white)
-        .block("readonly buffer", "FirstTriangles", "uint first_triangles[];",
-               std::as_bytes(std::span(first_triangles)));
+        .texture("sampler2D", "base_color_texture", handles.white);
     return inputs;
 }
 
@@ -143,7 +135,7 @@ RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
     desc.cull = faces.culled;
     desc.depth_bias = faces.pushed;
     desc.color_mask = faces.depth_only ? 0 : 0xF;
-    const std::string head = include_line("shadow/view/view.glsl") + gbuffer_inputs({}, {}, {}).text();
+    const std::string head = include_line("shadow/view/view.glsl") + gbuffer_inputs({}, {}).text();
     desc.vertex = {ShaderKind::vertex, "gbuffer.vert", head + vertex_text};
     if (surface.masked || !faces.depth_only) {
         desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag",
@@ -160,10 +152,10 @@ RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
 /// By round, masked and textured.
 const RasterDesc& pipeline(std::size_t round, const Surface& surface) {
     static const auto all = [] {
-        std::array<std::array<RasterDesc, 4>, round_faces.size()> made;
-        for (std::size_t i = 0; i < round_faces.size(); ++i) {
+        std::array<std::array<RasterDesc, 4>, rounds.size()> made;
+        for (std::size_t i = 0; i < rounds.size(); ++i) {
             for (std::size_t k = 0; k < 4; ++k) {
-                made[i][k] = gbuffer_pipeline(round_faces[i], {k >= 2, k % 2 == 1});
+                made[i][k] = gbuffer_pipeline(rounds[i], {k >= 2, k % 2 == 1});
             }
         }
         return made;
@@ -175,42 +167,32 @@ TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint 
     return graph.create({.name = name, .format = format, .width = width, .height = height});
 }
 
-/// Objects that follow each other and differ in nothing that a draw is told by hand: one command. Their order stays, since of
-/// surfaces in one place the first one shows.
-struct Run {
-    int material = 0;
-    bool receives = true;
-    std::vector<VkDrawIndexedIndirectCommand> draws;
-};
-
-std::vector<Run> runs_of(const Scene& scene, std::size_t round) {
-    std::vector<Run> runs;
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, std::size_t round) {
+    // Depth is reversed: less is farther.
+    r.depth_bias(-push_units, -push_pixels);
+    const RasterDesc* bound = nullptr;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (object.triangle_count == 0 ||
-            (round_faces[round].culled == VK_CULL_MODE_FRONT_BIT && is_single_sided(scene, object))) {
+        if (rounds[round].culled == VK_CULL_MODE_FRONT_BIT && is_single_sided(scene, object)) {
             continue;
         }
-        if (runs.empty() || runs.back().material != object.material || runs.back().receives != object.receives) {
-            runs.push_back({object.material, object.receives, {}});
+        const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+        const bool masked = is_masked(scene, object);
+        const bool textured = material.base_color_texture >= 0;
+        const RasterDesc& wanted = pipeline(round, {masked, textured});
+        if (&wanted != bound) {
+            r.bind(wanted);
+            bound = &wanted;
         }
-        runs.back().draws.push_back({object.triangle_count * 3, 1, object.first_triangle * 3, 0, i});
+        if (masked || textured) {
+            const BaseColor color = base_color(scene, handles, material);
+            r.set("base_color_texture", color.texture, color.sampler);
+        }
+        r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
+                          alpha_test(material).cutoff, object.first_triangle, static_cast<std::uint32_t>(i),
+                          object.receives ? 1.0F : 2.0F});
+        r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
     }
-    return runs;
-}
-
-void draw_run(Recorder& r, const Scene& scene, const SceneHandles& handles, std::size_t round, const Run& run) {
-    const Material& material = scene.materials[static_cast<std::size_t>(run.material)];
-    const bool masked = material.alpha_mode != AlphaMode::opaque;
-    const bool textured = material.base_color_texture >= 0;
-    r.bind(pipeline(round, {masked, textured}));
-    if (masked || textured) {
-        const BaseColor color = base_color(scene, handles, material);
-        r.set("base_color_texture", color.texture, color.sampler);
-    }
-    r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
-                      alpha_test(material).cutoff, run.receives ? 1.0F : 2.0F});
-    r.draw_indexed(run.draws);
 }
 
 }  // namespace
@@ -256,10 +238,7 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
     samples.emission = target(graph, "emission", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
     samples.depth = target(graph, "depth", VK_FORMAT_D32_SFLOAT_S8_UINT, width, height);
 
-    std::vector<std::uint32_t> first_triangles(std::max<std::size_t>(scene.scene->objects.size(), 1));
-    std::transform(scene.scene->objects.begin(), scene.scene->objects.end(), first_triangles.begin(),
-                   [](const Object& object) { return object.first_triangle; });
-    const ShaderInputs inputs = gbuffer_inputs(samples.constants, handles, first_triangles);
+    const ShaderInputs inputs = gbuffer_inputs(samples.constants, handles);
     graph.add_pass(
         "view samples",
         [&](PassBuilder& pass) {
@@ -277,12 +256,8 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
             inputs.set(r);
             r.vertex_buffer(handles.positions);
             r.index_buffer(handles.indices);
-            // Depth is reversed: less is farther.
-            r.depth_bias(-push_units, -push_pixels);
-            for (std::size_t round = 0; round < round_faces.size(); ++round) {
-                for (const Run& run : runs_of(*scene, round)) {
-                    draw_run(r, *scene, handles, round, run);
-                }
+            for (std::size_t round = 0; round < rounds.size(); ++round) {
+                draw_objects(r, *scene, handles, round);
             }
         });
     return samples;
