@@ -91,9 +91,9 @@ std::string arguments(const ShadowMap& map, std::span<const std::string_view> na
     return text;
 }
 
-std::vector<std::string_view> read_by(const Part& lookup) {
-    std::vector<std::string_view> names = lookup.needs;
-    names.insert(names.end(), lookup.optional.begin(), lookup.optional.end());
+std::vector<std::string_view> read_by(const Recipe& recipe) {
+    std::vector<std::string_view> names = needs_of(recipe);
+    names.insert(names.end(), recipe.lookup->optional.begin(), recipe.lookup->optional.end());
     return names;
 }
 
@@ -101,7 +101,7 @@ std::vector<std::string_view> read_by(const Part& lookup) {
 std::string calls(const Recipe& recipe, const ShadowMap& map) {
     const Part& lookup = *recipe.lookup;
     return fmt::format("#define GN_LOOKUP(at) gn_{}_visibility(at{}{})\n", identifier(lookup.id),
-                       arguments(map, read_by(lookup)), lookup.params_type.empty() ? "" : ", u.lookup_params");
+                       arguments(map, read_by(recipe)), lookup.params_type.empty() ? "" : ", u.lookup_params");
 }
 
 std::string side_name(std::string_view side) {
@@ -120,7 +120,7 @@ std::string side_calls(const FrameInput& input, const Recipe& recipe, const Shad
         const std::string_view side = input.sides[i];
         text += fmt::format("layout(location = {}) out vec4 {};\n", i + 1, side_name(side));
         body += fmt::format("    {} = vec4(counted ? gn_{}_{}(at{}{}) : 0.0);\n", side_name(side),
-                            identifier(lookup.id), identifier(side), arguments(map, read_by(lookup)),
+                            identifier(lookup.id), identifier(side), arguments(map, read_by(recipe)),
                             lookup.params_type.empty() ? "" : ", u.lookup_params");
     }
     return text +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The names by which lookups ask for what is made of a map.
 #include "shadow/casters/peel.h"
+#include "shadow/map/derived.glsl"
 #include "shadow/map/derived.h"
 #include "shadow/map/sums.h"
 #include "shadow/recipe/part.h"
@@ -20,11 +21,15 @@ TextureHandle add_all_mips(const DerivedFrom& from) {
     return add_mipmapped(from.input.graph, from.source);
 }
 
-constexpr std::array<Derivation, 8> all_derivations{{
+constexpr std::array<Derivation, 9> all_derivations{{
     {"min-max", "depth", "A pyramid of least and greatest depths.", 0, false,
      [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source); }},
     {"n-buffers", "depth", "Least and greatest depths of any square of 2^l texels.", 0, false,
      [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, from.source, NBuffer::min_max); }},
+    {"coarse-n-buffers", "min-max", "The same of any square of 2^l blocks of 8 texels.", 0, false,
+     [](const DerivedFrom& from) {
+         return add_n_buffer(from.input.graph, from.source, NBuffer::ranges, 16, glsl::gn_coarse_mip);
+     }},
     {"mean-n-buffers", "moments", "Means of any square of 2^l texels.", 0, false,
      [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, from.source, NBuffer::mean); }},
     {"summed-depths", "depth", "A table of sums, which answers with the mean depth of any rectangle of texels.", 0,
@@ -76,11 +81,11 @@ std::span<const Derivation> derivations() {
 
 bool map_gives(const Part& map, std::string_view need) {
     const Derivation* derived = asked(need).derivation;
-    return holds(map.gives, need) || (derived != nullptr && holds(map.gives, derived->from));
+    return holds(map.gives, need) || (derived != nullptr && map_gives(map, derived->from));
 }
 
 void add_derived(const FrameInput& input, const Recipe& recipe, const LightViews& views, ShadowMap& map) {
-    for (const std::string_view need : recipe.lookup->needs) {
+    for (const std::string_view need : needs_of(recipe)) {
         const auto [derivation, count] = asked(need);
         const Offer* from = derivation != nullptr ? map.find(derivation->from) : nullptr;
         if (from == nullptr || map.find(need) != nullptr) {

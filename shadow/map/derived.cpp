@@ -131,20 +131,23 @@ std::uint32_t n_buffer_levels(std::uint32_t side, std::uint32_t most_levels) {
     return std::min(static_cast<std::uint32_t>(std::bit_width(side)), most_levels);
 }
 
-TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels) {
+TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels,
+                           std::uint32_t mip) {
     TextureDesc desc = range_desc(graph, source, "map n-buffer");
     if (kind == NBuffer::mean) {
         desc.format = graph.desc(source).format;
     }
+    desc.width = std::max(desc.width >> mip, 1U);
+    desc.height = std::max(desc.height >> mip, 1U);
     const std::uint32_t layers = desc.layers;
     const std::uint32_t levels = n_buffer_levels(std::max(desc.width, desc.height), most_levels);
     desc.layers = layers * levels;
     const TextureHandle buffer = graph.create(desc);
-    const RasterDesc& first = kind == NBuffer::mean ? step_shaders().copy : step_shaders().square;
+    const RasterDesc& first = kind == NBuffer::min_max ? step_shaders().square : step_shaders().copy;
     const RasterDesc& join = kind == NBuffer::mean ? step_shaders().join_means : step_shaders().join_ranges;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t base = layer * levels;
-        add_step(graph, source, buffer, {first, one_layer(layer), one_layer(base)});
+        add_step(graph, source, buffer, {first, one_layer(layer, mip), one_layer(base)});
         for (std::uint32_t level = 1; level < levels; ++level) {
             add_step(graph, buffer, buffer,
                      {join, one_layer(base + level - 1), one_layer(base + level), {0, 1 << (level - 1)}});

@@ -20,6 +20,9 @@ GN_FN int gn_pyramid_level(ivec2 first, ivec2 last, int levels) {
     return level;
 }
 
+// The level of a pyramid that coarse N-buffers are made of: blocks of 8 texels.
+const int gn_coarse_mip = 3;
+
 // The level of an N-buffer whose squares, one in each corner, cover a rectangle without a gap: the largest power of two
 // that is no longer than the longer side.
 GN_FN int gn_n_buffer_level(ivec2 first, ivec2 last, int levels) {

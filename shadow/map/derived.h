@@ -18,12 +18,14 @@ TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth);
 
 enum class NBuffer {
     min_max,  ///< RG32F: least and greatest
+    ranges,   ///< the same of a source that has both already
     mean,     ///< the components' means, in the source's own format
 };
 /// Level l of layer v is layer v * levels + l: at texel t, over the square of 2^l texels that begins at t and goes to the
 /// right and down, clamped to the map. `levels` is the return value's layers over the source's: 1 + floor(log2(side)),
-/// at most `most_levels`. Throws Error where the device has too few layers.
-TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels = 16);
+/// at most `most_levels`. Of the source's level `mip`. Throws Error where the device has too few layers.
+TextureHandle add_n_buffer(FrameGraph& graph, TextureHandle source, NBuffer kind, std::uint32_t most_levels = 16,
+                           std::uint32_t mip = 0);
 
 /// Fills the mips of every layer by halving boxes; the device must filter the format.
 void add_mips(FrameGraph& graph, TextureHandle texture);

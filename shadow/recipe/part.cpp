@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/recipe/part.h"
 
+#include "shadow/recipe/recipe.h"
+
 #include <algorithm>
 
 namespace gn {
@@ -57,6 +59,11 @@ std::vector<std::string_view> with_filterable(bool filterable, const std::vector
 
 std::vector<std::string_view> words_read(const Part& lookup) {
     return with_filterable(lookup.filters, lookup.needs);
+}
+
+std::vector<std::string_view> needs_of(const Recipe& recipe) {
+    const Part& lookup = *recipe.lookup;
+    return lookup.needs_for != nullptr ? lookup.needs_for(recipe) : lookup.needs;
 }
 
 std::vector<std::string_view> words_given(const Part& map) {

@@ -68,6 +68,8 @@ class Part {
     /// lookup: what it reads besides where the map gives it in this recipe ("ids"); else another texture is passed, which its
     /// GLSL must not read.
     std::vector<std::string_view> optional;
+    /// lookup: what its GLSL takes with a recipe's parameters, always as many; null: `needs`.
+    std::vector<std::string_view> (*needs_for)(const Recipe&) = nullptr;
     bool filters = false;  ///< lookup: asks the map's own GLSL for a footprint, which must be filterable
     /// map: what it gives: names of textures.
     std::vector<std::string_view> gives;
@@ -93,7 +95,7 @@ class Part {
     std::string_view glsl;         ///< include path: "shadow/lookup/pcf/pcf.glsl"; "" when there is none
 
     // Exactly one of these is set, by stage.
-    /// What serves a light in the stages behind: lights without extent, whose V are summed by weight. At least one.
+    /// What serves a light in the stages behind: points or pieces of it, whose V are summed by weight. At least one.
     std::vector<Light> (*split)(const Light&, const Recipe&) = nullptr;
     /// The pixels whose V light `index` of `count` is for, with weight 0 elsewhere; null: all. Lights of the same pixels follow
     /// each other.
@@ -122,6 +124,8 @@ bool tells(const Part& lookup, std::string_view side);
 std::string lookups_that_tell(std::string_view side);
 /// What a lookup reads of a map, and what a map gives, as words: "filterable", and the names of textures.
 std::vector<std::string_view> words_read(const Part& lookup);
+/// What the recipe's lookup needs of its map with the recipe's parameters, as its GLSL takes it.
+std::vector<std::string_view> needs_of(const Recipe& recipe);
 std::vector<std::string_view> words_given(const Part& map);
 /// Whether a list of names holds one.
 bool holds(std::span<const std::string_view> names, std::string_view name);

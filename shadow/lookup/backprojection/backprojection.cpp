@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Soft shadows by projecting what a map holds back onto the light.
+//
+// Based on: Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. EGSR 2006. [GBP06]
+//
+// Also here: area.glsl, bitmask.glsl, contours.glsl, cover.glsl, light_plane.glsl, patches.glsl, quads.glsl, search.glsl.
+// Also here: texels.glsl.
+#include "shadow/lookup/backprojection/backprojection.h"
+#include "shadow/lookup/backprojection/light_plane.glsl"
+
+#include "shadow/recipe/part.h"
+#include "shadow/recipe/recipe.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gn {
+namespace {
+
+/// A caster's distance matters up to the light itself. How far penumbrae reach is known of suns: what the scene's height
+/// allows. Under lamps views are widened by the light's own size.
+Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    const GnLight& shape = light.shape;
+    if (!glsl::gn_back_has_size(shape) && params.least == 0) {
+        return {};
+    }
+    if (shape.kind != GN_LIGHT_DIRECTIONAL) {
+        const float size =
+            shape.kind == GN_LIGHT_RECTANGLE ? std::max(shape.half_size.x, shape.half_size.y) : shape.radius;
+        return {.texels = params.least + 2, .metres = size, .before = std::numeric_limits<float>::infinity()};
+    }
+    const float height = glm::dot(bounds_ws.extent(), glm::abs(vec3(shape.direction_ws)));
+    return {.texels = params.least + 2, .metres = std::tan(shape.angular_radius) * height, .before = height};
+}
+
+std::vector<std::string_view> needs_for(const Recipe& recipe) {
+    static constexpr std::array<std::string_view, 8> peeled{"depth",    "depth",    "peeled-2", "peeled-3",
+                                                            "peeled-4", "peeled-5", "peeled-6", "peeled-7"};
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    const bool levels = params.pyramid == GN_BACK_HSM || params.pyramid == GN_BACK_YSM;
+    return {"depth", levels ? "min-max" : "depth",
+            params.pyramid == GN_BACK_MSSM  ? "n-buffers"
+            : params.pyramid == GN_BACK_YSM ? "coarse-n-buffers"
+                                            : "depth",
+            peeled.at(static_cast<std::size_t>(params.layers))};
+}
+
+std::string prologue(const Recipe& recipe) {
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    return fmt::format(
+        "#define GN_BACK_OCCLUDER {}\n#define GN_BACK_COMBINE {}\n#define GN_BACK_PYRAMID {}\n"
+        "#define GN_BACK_LAYERS {}\n#define GN_BACK_FUSION {}\n",
+        params.occluder, params.combine, params.pyramid, params.layers, params.fusion);
+}
+
+std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    const Part& placement = recipe.placement_for(light.shape);
+    if (placement.bends) {
+        return fmt::format(
+            "lookup 'backprojection' projects straight edges and placement '{}' bends them; take placement=cube or "
+            "placement=fit",
+            placement.id);
+    }
+    if (params.layers > 1 && params.fusion == GN_BACK_UNION && params.combine == GN_BACK_AREA) {
+        return "areas of several layers cannot be united; backprojection.fusion=sum adds them, "
+               "backprojection.combine=bitmask unites them";
+    }
+    if (params.pyramid == GN_BACK_MSSM && recipe.resolution > 1024) {
+        return fmt::format(
+            "backprojection.pyramid=mssm keeps every level at full size and takes maps of up to 1024 texels, not {}; "
+            "backprojection.pyramid=ysm takes any",
+            recipe.resolution);
+    }
+    return {};
+}
+
+ParamTable rows() {
+    return param_table<GnBackprojectionParams>({
+        GN_CHOICE(GnBackprojectionParams, occluder,
+                  "What stands for texels: patches across the view, quads between the centres of four texels that all "
+                  "hide the light, triangles of three besides, patches fitted to finer texels, or outlines of all that "
+                  "touch.",
+                  "micropatch", "microquad", "microtri", "microrect", "contour"),
+        GN_CHOICE(GnBackprojectionParams, combine,
+                  "How occluders are united: by the areas that they hide, which add up to too much where they overlap, "
+                  "or by 256 points of the light, each hidden or not.",
+                  "area", "bitmask"),
+        GN_CHOICE(GnBackprojectionParams, pyramid,
+                  "What narrows the search: nothing, so that all of the map before the receiver's pyramid is read; a "
+                  "pyramid of least and greatest depths; these of squares anywhere, at the cost of memory; or both.",
+                  "none", "hsm", "mssm", "ysm"),
+        GN_PARAM(GnBackprojectionParams, refine, integer, 0, 8, "",
+                 "How often the searched area is narrowed by the nearest depth found in it."),
+        GN_PARAM(GnBackprojectionParams, early_out, boolean, 0, 1, "",
+                 "Ends the search where least and greatest depth say that all of the light is seen, or none: V stays "
+                 "the same where occluders leave no gaps."),
+        GN_PARAM(GnBackprojectionParams, budget, integer, 0, 65536, "texels",
+                 "Texels that a receiver reads at most: beyond them it takes a coarser level of the pyramid; 0 is no "
+                 "limit."),
+        GN_PARAM(GnBackprojectionParams, blend, boolean, 0, 1, "",
+                 "Blends two levels, so that no step shows where the level changes; costs both."),
+        GN_PARAM(GnBackprojectionParams, corners, boolean, 0, 1, "",
+                 "Quads stand between the corners of texels and not between their centres: casters are not half a texel "
+                 "too narrow, and what is one texel thin is not lost."),
+        GN_PARAM(GnBackprojectionParams, level_bias, real, 0, 16, "texels",
+                 "Texels of the coarser level over which the receiver's plane is lowered: less leaves acne, more loses "
+                 "contacts."),
+        GN_PARAM(GnBackprojectionParams, least, real, 0, 16, "texels",
+                 "Half width of the narrowest penumbra: below one the map's texels show at contacts."),
+        GN_PARAM(GnBackprojectionParams, gaps, boolean, 0, 1, "",
+                 "Closes gaps between patches of different depth; without it light leaks through slanted casters."),
+        GN_PARAM(GnBackprojectionParams, gap_limit, real, 0, 1000, "m",
+                 "Only gaps of up to so much depth are closed; 0 closes all."),
+        GN_PARAM(GnBackprojectionParams, layers, integer, 1, 7, "",
+                 "Surfaces one behind the other that the map holds: more catch casters that others hide from the light's "
+                 "centre; cost grows with them."),
+        GN_CHOICE(GnBackprojectionParams, fusion,
+                  "What several layers hide together: the union of their points; of each texel the farthest before the "
+                  "receiver alone; or the sum, the greatest, the mean or the product of what each hides.",
+                  "union", "farthest", "sum", "max", "mean", "product"),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_backprojection() {
+    static const Part part = [] {
+        Part p;
+        p.id = "backprojection";
+        p.stage = Stage::lookup;
+        p.title = "Backprojection of a map's texels onto the light";
+        p.citation = "GBP06";
+        p.needs = {"depth", "min-max"};
+        p.needs_for = needs_for;
+        p.sides = {{"visited-texels", "texels", "How many texels of the map are read for a sample."},
+                   {"search-class", "", "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read."},
+                   {"level", "", "How many levels coarser than the map what is read is."}};
+        p.params = rows();
+        p.params_type = "GnBackprojectionParams";
+        p.glsl = "shadow/lookup/backprojection/backprojection.glsl";
+        p.guard = guard;
+        p.prologue = prologue;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn
