@@ -102,9 +102,10 @@ ParamTable rows() {
                  "limit."),
         GN_PARAM(GnBackprojectionParams, blend, boolean, 0, 1, "",
                  "Blends two levels, so that no step shows where the level changes; costs both."),
-        GN_PARAM(GnBackprojectionParams, corners, boolean, 0, 1, "",
-                 "Quads stand between the corners of texels and not between their centres: casters are not half a texel "
-                 "too narrow, and what is one texel thin is not lost."),
+        GN_PARAM(
+            GnBackprojectionParams, corners, boolean, 0, 1, "",
+            "Quads stand between the corners of texels and not between their centres: casters are not half a texel "
+            "too narrow, and what is one texel thin is not lost."),
         GN_PARAM(GnBackprojectionParams, level_bias, real, 0, 16, "texels",
                  "Texels of the coarser level over which the receiver's plane is lowered: less leaves acne, more loses "
                  "contacts."),
@@ -114,9 +115,10 @@ ParamTable rows() {
                  "Closes gaps between patches of different depth; without it light leaks through slanted casters."),
         GN_PARAM(GnBackprojectionParams, gap_limit, real, 0, 1000, "m",
                  "Only gaps of up to so much depth are closed; 0 closes all."),
-        GN_PARAM(GnBackprojectionParams, layers, integer, 1, 7, "",
-                 "Surfaces one behind the other that the map holds: more catch casters that others hide from the light's "
-                 "centre; cost grows with them."),
+        GN_PARAM(
+            GnBackprojectionParams, layers, integer, 1, 7, "",
+            "Surfaces one behind the other that the map holds: more catch casters that others hide from the light's "
+            "centre; cost grows with them."),
         GN_CHOICE(GnBackprojectionParams, fusion,
                   "What several layers hide together: the union of their points; of each texel the farthest before the "
                   "receiver alone; or the sum, the greatest, the mean or the product of what each hides.",
@@ -137,9 +139,10 @@ const Part& lookup_backprojection() {
         p.citation = "GBP06";
         p.needs = {"depth", "min-max"};
         p.needs_for = needs_for;
-        p.sides = {{"visited-texels", "texels", "How many texels of the map are read for a sample."},
-                   {"search-class", "", "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read."},
-                   {"level", "", "How many levels coarser than the map what is read is."}};
+        p.sides = {
+            {"visited-texels", "texels", "How many texels of the map are read for a sample."},
+            {"search-class", "", "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read."},
+            {"level", "", "How many levels coarser than the map what is read is."}};
         p.params = rows();
         p.params_type = "GnBackprojectionParams";
         p.glsl = "shadow/lookup/backprojection/backprojection.glsl";

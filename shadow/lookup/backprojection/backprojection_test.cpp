@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a map's texels hide of the light, exactly: one of them, two that overlap, and all of them.
-#include "shadow/lookup/backprojection/light_plane.glsl"
+#include "scenes/analytic.h"
 #include "shadow/lookup/backprojection/contours.glsl"
 #include "shadow/lookup/backprojection/cover.glsl"
+#include "shadow/lookup/backprojection/light_plane.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
-#include "scenes/analytic.h"
 #include "tests/rig.h"
 #include "tests/warp_scene.h"
 
@@ -200,7 +200,8 @@ TEST(Backprojection, ATexelIsSeenBeforeTheLightWhereTheFormulaSays) {
         const vec3 centre_ws(light.position_ws);
         const float z_p = glm::dot(toward_ws, centre_ws - p_ws), z = glm::dot(toward_ws, centre_ws - q_ws), near = 0.1F;
         const auto on_near = [&](vec3 a_ws, float z_a) {
-            return vec2(glm::dot(vec3(light.right_ws), a_ws - centre_ws), glm::dot(vec3(light.up_ws), a_ws - centre_ws)) *
+            return vec2(glm::dot(vec3(light.right_ws), a_ws - centre_ws),
+                        glm::dot(vec3(light.up_ws), a_ws - centre_ws)) *
                    (near / z_a);
         };
         const vec2 x_m = (on_near(q_ws, z) - on_near(p_ws, z_p)) * (z * z_p / (near * (z_p - z)));
@@ -282,12 +283,12 @@ TEST(BackprojectionRendered, OverlapsAreRightByPointsAndWrongByAreasAsPredicted)
         const char* settings;
         double (*expected)(double, double);
     };
-    for (const Case& fusion : {Case{"fusion=union", [](double a, double b) { return std::min(a, b); }},
-                               Case{"fusion=farthest", [](double, double b) { return b; }},
-                               Case{"fusion=sum,backprojection.combine=area",
-                                    [](double a, double b) { return std::max(a + b - 1, 0.0); }},
-                               Case{"fusion=product", [](double a, double b) { return a * b; }},
-                               Case{"fusion=mean", [](double a, double b) { return (a + b) / 2; }}}) {
+    for (const Case& fusion :
+         {Case{"fusion=union", [](double a, double b) { return std::min(a, b); }},
+          Case{"fusion=farthest", [](double, double b) { return b; }},
+          Case{"fusion=sum,backprojection.combine=area", [](double a, double b) { return std::max(a + b - 1, 0.0); }},
+          Case{"fusion=product", [](double a, double b) { return a * b; }},
+          Case{"fusion=mean", [](double a, double b) { return (a + b) / 2; }}}) {
         const auto c = test::compare(
             "overlap",
             fmt::format("backprojection,resolution=192,backprojection.layers=2,backprojection.{}", fusion.settings),
@@ -315,10 +316,10 @@ TEST(BackprojectionRendered, OverlapsAreRightByPointsAndWrongByAreasAsPredicted)
 TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
     for (const char* scene : {"slab", "contact:light=spot", "contact"}) {
         const auto values = [&](const char* settings) {
-            return test::compare(scene,
-                                 fmt::format("backprojection,resolution=64,backprojection.budget=0,backprojection.{}",
-                                             settings),
-                                 {.width = 40, .height = 30, .samples = 1})
+            return test::compare(
+                       scene,
+                       fmt::format("backprojection,resolution=64,backprojection.budget=0,backprojection.{}", settings),
+                       {.width = 40, .height = 30, .samples = 1})
                 .visibility()
                 .values;
         };
