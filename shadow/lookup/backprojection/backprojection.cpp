@@ -51,8 +51,8 @@ std::string prologue(const Recipe& recipe) {
     const auto params = recipe.of<GnBackprojectionParams>("backprojection");
     return fmt::format(
         "#define GN_BACK_OCCLUDER {}\n#define GN_BACK_COMBINE {}\n#define GN_BACK_PYRAMID {}\n"
-        "#define GN_BACK_LAYERS {}\n#define GN_BACK_FUSION {}\n",
-        params.occluder, params.combine, params.pyramid, params.layers, params.fusion);
+        "#define GN_BACK_LAYERS {}\n#define GN_BACK_FUSION {}\n#define GN_BACK_CORNERS {}\n",
+        params.occluder, params.combine, params.pyramid, params.layers, params.fusion, params.corners);
 }
 
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
@@ -114,7 +114,7 @@ ParamTable rows() {
         GN_PARAM(GnBackprojectionParams, gaps, boolean, 0, 1, "",
                  "Closes gaps between patches of different depth; without it light leaks through slanted casters."),
         GN_PARAM(GnBackprojectionParams, gap_limit, real, 0, 1000, "m",
-                 "Only gaps of up to so much depth are closed; 0 closes all."),
+                 "Only gaps of up to so much depth are closed, by walls and by quads; 0 closes all."),
         GN_PARAM(
             GnBackprojectionParams, layers, integer, 1, 7, "",
             "Surfaces one behind the other that the map holds: more catch casters that others hide from the light's "

@@ -119,10 +119,10 @@ float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionPa
     GnBackSearch search = gn_back_search_of(at, GN_BACK_THESE, light, params);
     float coarseness = gn_back_coarseness(search, params);
     int level = int(params.blend != 0 ? floor(coarseness) : ceil(coarseness));
-    float hidden = gn_back_hidden_at(at, GN_BACK_THESE, light, search, level, params);
     float between = coarseness - float(level);
-    if (between > 0.0) {
-        hidden = mix(hidden, gn_back_hidden_at(at, GN_BACK_THESE, light, search, level + 1, params), between);
+    float hidden = 0.0;
+    for (int end = 0; end <= (between > 0.0 ? 1 : 0); ++end) {
+        hidden = mix(hidden, gn_back_hidden_at(at, GN_BACK_THESE, light, search, level + end, params), end == 0 ? 1.0 : between);
     }
     return 1.0 - hidden;
 }

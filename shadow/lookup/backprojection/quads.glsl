@@ -18,10 +18,16 @@
 #endif
 
 // Corners in turn around the cell.
-GnBackCover gn_back_quad(GnBackCover cover, GnBackTexel a, GnBackTexel b, GnBackTexel c, GnBackTexel d, GnBackMap map,
+GnBackCover gn_back_quad(GnBackCover cover, GnLookup at, GnBackTexel a, GnBackTexel b, GnBackTexel c, GnBackTexel d, GnBackMap map,
                          GnBackprojectionParams params) {
     int count = int(a.hides) + int(b.hides) + int(c.hides) + int(d.hides);
     if (count < (GN_BACK_OCCLUDER == GN_BACK_MICROTRI ? 3 : 4)) {
+        return cover;
+    }
+    // A step that is too deep is a gap between two casters.
+    float nearest = min(min(a.depth, b.depth), min(c.depth, d.depth));
+    float farthest = max(max(a.depth, b.depth), max(c.depth, d.depth));
+    if (params.gap_limit > 0.0 && count == 4 && (farthest - nearest) * at.projected.metres_per_depth > params.gap_limit) {
         return cover;
     }
     // The corner that is missing moves to the next one.
@@ -31,20 +37,24 @@ GnBackCover gn_back_quad(GnBackCover cover, GnBackTexel a, GnBackTexel b, GnBack
 
 // A quad's corner: the centre of a texel, or the corner between four where the map's own texels count.
 GnBackTexel gn_back_vertex(GnLookup at, GN_BACK_MAPS, GnBackMap map, ivec2 vertex, GnBackprojectionParams params) {
-    return params.corners != 0 && map.level == 0 ? gn_back_between_four(at, GN_BACK_THESE, map, vertex, params)
-                                                 : gn_back_texel(at, GN_BACK_THESE, map, vertex, params);
+    if (GN_BACK_CORNERS != 0 && map.level == 0) {
+        return gn_back_between_four(at, GN_BACK_THESE, map, vertex, params);
+    }
+    return gn_back_texel(at, GN_BACK_THESE, map, vertex, params);
 }
 
 // Row by row; what is read of a column serves two cells.
 GnBackCover gn_back_quads(GnBackCover cover, GnLookup at, GN_BACK_MAPS, GnBackMap map, GnBackprojectionParams params) {
-    ivec2 first = map.texels.xy + (params.corners != 0 && map.level == 0 ? 1 : 0);
+    ivec2 first = map.texels.xy + (GN_BACK_CORNERS != 0 && map.level == 0 ? 1 : 0);
     for (int y = first.y; y < map.texels.w; ++y) {
-        GnBackTexel a = gn_back_vertex(at, GN_BACK_THESE, map, ivec2(first.x, y), params);
-        GnBackTexel b = gn_back_vertex(at, GN_BACK_THESE, map, ivec2(first.x, y + 1), params);
-        for (int x = first.x + 1; x <= map.texels.z; ++x) {
+        GnBackTexel a;
+        GnBackTexel b;
+        a.hides = false;
+        b.hides = false;
+        for (int x = first.x; x <= map.texels.z; ++x) {
             GnBackTexel d = gn_back_vertex(at, GN_BACK_THESE, map, ivec2(x, y), params);
             GnBackTexel c = gn_back_vertex(at, GN_BACK_THESE, map, ivec2(x, y + 1), params);
-            cover = gn_back_quad(cover, a, b, c, d, map, params);
+            cover = x > first.x ? gn_back_quad(cover, at, a, b, c, d, map, params) : cover;
             a = d;
             b = c;
         }

@@ -134,7 +134,7 @@ GnBackSearch gn_back_search(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBack
             GnBackLight enlarged = gn_back_scaled(light, result.enlarged);
             area_ts = gn_back_area(at.view, at.projected.bounds_ts, enlarged, result.nearest);
         }
-        ivec4 texels = gn_back_texels(area_ts, at.projected.texel_ts, params.corners != 0);
+        ivec4 texels = gn_back_texels(area_ts, at.projected.texel_ts, GN_BACK_CORNERS != 0);
         result.held = ivec4(clamp(texels.xy, view.xy, view.zw - 1), clamp(texels.zw, view.xy + 1, view.zw));
         result.whole = result.held == texels;
         result.texels = gn_back_reached(texels, view);

@@ -15,6 +15,7 @@
 
 // What a host may fix when it compiles: the parameters that decide what a receiver runs through.
 //   #define GN_BACK_PYRAMID 1
+//   #define GN_BACK_CORNERS 1
 //   #define GN_BACK_LAYERS 1
 //   #define GN_BACK_FUSION 0
 #ifndef GN_BACK_PYRAMID
@@ -22,6 +23,9 @@
 #endif
 #ifndef GN_BACK_LAYERS
 #define GN_BACK_LAYERS params.layers
+#endif
+#ifndef GN_BACK_CORNERS
+#define GN_BACK_CORNERS params.corners
 #endif
 #ifndef GN_BACK_FUSION
 #define GN_BACK_FUSION params.fusion
