@@ -2,31 +2,17 @@
 // Percentage-closer soft shadows, in the light's physical size, over any placement.
 //
 // Based on: Fernando. Percentage-Closer Soft Shadows. SIGGRAPH Sketches 2005. [Fer05]
+// Also here: pcss_light.glsl (the light as a receiver sees it), light_guard.h, light_guard.cpp (how far its penumbrae reach)
 #include "shadow/lookup/pcss/pcss.h"
 
-#include "shadow/recipe/part.h"
+#include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/recipe/recipe.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace gn {
 namespace {
 
-/// A caster's distance matters up to the light itself. How far penumbrae reach is known of suns: what the scene's height
-/// allows. Under lamps views that touch go on in each other where their placement crosses; else they are widened by the light's
-/// own size.
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
-    const auto params = recipe.of<GnPcssParams>("pcss");
-    const GnLight& shape = light.shape;
-    if (shape.kind != GN_LIGHT_DIRECTIONAL) {
-        const float size =
-            shape.kind == GN_LIGHT_RECTANGLE ? std::max(shape.half_size.x, shape.half_size.y) : shape.radius;
-        return {.texels = params.least + 1, .metres = size, .before = std::numeric_limits<float>::infinity()};
-    }
-    const float height = glm::dot(bounds_ws.extent(), glm::abs(vec3(shape.direction_ws)));
-    return {.texels = params.least + 1, .metres = std::tan(shape.angular_radius) * height, .before = height};
+    return light_guard(light, bounds_ws, recipe.of<GnPcssParams>("pcss").least);
 }
 
 ParamTable rows() {
