@@ -96,6 +96,27 @@ GN_FN vec2 gn_pcss_reach(GnLookup at, GnPcssLight half_light, float spread) {
     return half_light.square ? right_ts + up_ts : sqrt(right_ts * right_ts + up_ts * up_ts);
 }
 
+// What lengthens a kernel beyond the light's points: by so much along the ways of its two axes on the map.
+struct GnPcssWiden {
+    vec2 right_ts;
+    vec2 up_ts;
+};
+
+// Both axes lengthened, by `more_ts` in any case and besides to at least `least_ts`.
+GN_FN GnPcssWiden gn_pcss_widen(GnLookup at, GnPcssLight half_light, float spread, float more_ts, float least_ts) {
+    vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0f, 0.0f), spread);
+    vec2 up_ts = gn_pcss_shift(at, half_light, vec2(0.0f, 1.0f), spread);
+    float right = length(right_ts);
+    float up = length(up_ts);
+    GnPcssWiden widen;
+    widen.right_ts = (right > 0.0f ? right_ts / right : vec2(1.0f, 0.0f)) * (more_ts + max(least_ts - right, 0.0f));
+    widen.up_ts = (up > 0.0f ? up_ts / up : vec2(0.0f, 1.0f)) * (more_ts + max(least_ts - up, 0.0f));
+    return widen;
+}
+
+// How far a point of the light lies from its centre: 1 on its rim.
+GN_FN float gn_pcss_rim(bool square, vec2 q) { return square ? max(abs(q.x), abs(q.y)) : length(q); }
+
 // Point i of n in the light's own shape, turned or moved by the pixel's noise.
 GN_FN vec2 gn_pcss_point(bool square, int i, int n, float noise) {
     if (square) {
