@@ -19,17 +19,19 @@ ParamTable rows() {
     return param_table<GnChsParams>({
         GN_PARAM(GnChsParams, side, integer, 3, 16, "texels",
                  "Side of the grid: smoother and truer penumbrae, cost grows with its square."),
-        GN_CHOICE(GnChsParams, texels,
-                  "A mip's texel on both sides of the receiver's plane is looked into point by point, or is as far away as "
-                  "its mean, which is faster and widens shadows.",
-                  "points", "mean"),
+        GN_CHOICE(
+            GnChsParams, texels,
+            "A mip's texel on both sides of the receiver's plane is looked into point by point, or is as far away as "
+            "its mean, which is faster and widens shadows.",
+            "points", "mean"),
         GN_PARAM(GnChsParams, finer, integer, 0, 4, "mips",
                  "How much finer such a texel is read: smoother penumbrae, cost grows fourfold there with each."),
         GN_PARAM(GnChsParams, least, real, 0, 16, "texels",
                  "Half width of the narrowest kernel: below one the map's texels show at contacts."),
-        GN_PARAM(GnChsParams, early_out, boolean, 0, 1, "",
-                 "Skips the search where the least and greatest depth of its region say that all of the light is seen, or "
-                 "none."),
+        GN_PARAM(
+            GnChsParams, early_out, boolean, 0, 1, "",
+            "Skips the search where the least and greatest depth of its region say that all of the light is seen, or "
+            "none."),
     });
 }
 

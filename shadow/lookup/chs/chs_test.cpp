@@ -73,7 +73,8 @@ vec2 halves(const test::Comparison& c) {
 TEST(ChsRendered, WidthsAreTheLightsWhateverTheResolution) {
     for (const char* scene : {"half-plane", "half-plane:light=spot", "half-plane:light=directional"}) {
         for (const int resolution : {256, 1024}) {
-            const auto c = test::compare(scene, fmt::format("chs,resolution={}", resolution), {.width = 64, .height = 48});
+            const auto c =
+                test::compare(scene, fmt::format("chs,resolution={}", resolution), {.width = 64, .height = 48});
             // A penumbra too wide by a share s is too dark by s / 8 in its lit half and too bright by as much in its dark one.
             // The rim of a kernel 8 texels wide is known to one of them, and the caster's edge to a texel of the map.
             const double texel = 24.0 / resolution / 2 / 0.5;

@@ -33,11 +33,6 @@ ParamTable rows() {
             GnPcssParams, early_out, boolean, 0, 1, "",
             "Skips the search where the least and greatest depth of its region say that all of the light is seen, or "
             "none: V stays the same."),
-        GN_PARAM(
-            GnPcssParams, planes, integer, 1, 2, "",
-            "Planes that what hides the light is sorted into by distance: two tell casters behind each other apart."),
-        GN_PARAM(GnPcssParams, pyramid, boolean, 0, 1, "",
-                 "Leaves out what lies outside the pyramid of receiver and light, which hides nothing of it."),
     });
 }
 

@@ -52,33 +52,18 @@ struct GnPcssFound {
     float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
     float receiver;    // metres along the axis
     float blocker;     // their mean, or the nearest
-    float split;       // what lies nearer than their mean is sorted into one plane, the rest into another
-    vec2 planes;       // the means of both
 };
-
-// Whether a blocker lies within the pyramid of receiver and light, seen where a kernel of `spread` has its point q: it hides
-// the point whose shift is the same for its own distance. `slack`: what the narrowest kernel reaches, as a spread.
-bool gn_pcss_inside(GnLookup at, GnPcssFound found, bool square, vec2 q, float spread, float blocker, float slack) {
-    return gn_pcss_rim(square, q) * spread <= gn_pcss_spread_at(at, found.receiver, blocker) + slack;
-}
-
-// What `least` texels are as a spread.
-float gn_pcss_slack(GnLookup at, GnPcssLight half_light, float least) {
-    vec2 reach_ts = gn_pcss_reach(at, half_light, 1.0);
-    return least * at.projected.texel_ts / max(max(reach_ts.x, reach_ts.y), 1.0e-9);
-}
 
 GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light,
                            GnPcssParams params, float noise) {
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
-    GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver, 0.0, vec2(region.receiver));
+    GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
     }
 
     GnPcssWiden widen = gn_pcss_widen(at, half_light, region.spread, params.least * at.projected.texel_ts, 0.0);
-    float slack = gn_pcss_slack(at, half_light, params.least);
     float sum = 0.0;
     float count = 0.0;
     float nearest = result.receiver;
@@ -86,8 +71,7 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
         vec2 q = gn_pcss_point(half_light.square, i, params.search_taps, noise);
         vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, region.spread) + q.x * widen.right_ts + q.y * widen.up_ts;
         GnPcssTap tap = gn_pcss_tap(at, depth, axis, tap_ts);
-        bool counts = !tap.lit && (params.pyramid == 0 || gn_pcss_inside(at, result, half_light.square, q, region.spread, tap.distance, slack));
-        if (counts) {
+        if (!tap.lit) {
             sum += tap.distance;
             count += 1.0;
             nearest = min(nearest, tap.distance);
@@ -97,8 +81,7 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
         result.visibility = 1.0;
         return result;
     }
-    result.split = sum / count;
-    result.blocker = clamp(params.blocker == GN_PCSS_NEAREST ? nearest : result.split, 0.0, result.receiver);
+    result.blocker = clamp(params.blocker == GN_PCSS_NEAREST ? nearest : sum / count, 0.0, result.receiver);
     return result;
 }
 

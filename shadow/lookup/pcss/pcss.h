@@ -15,8 +15,6 @@ struct GnPcssParams {
     float density GN_DEFAULT(4.0f);
     float least GN_DEFAULT(1.5f);
     int early_out GN_DEFAULT(1);
-    int planes GN_DEFAULT(1);
-    int pyramid GN_DEFAULT(0);
 };
 
 #endif

@@ -114,9 +114,6 @@ GN_FN GnPcssWiden gn_pcss_widen(GnLookup at, GnPcssLight half_light, float sprea
     return widen;
 }
 
-// How far a point of the light lies from its centre: 1 on its rim.
-GN_FN float gn_pcss_rim(bool square, vec2 q) { return square ? max(abs(q.x), abs(q.y)) : length(q); }
-
 // Point i of n in the light's own shape, turned or moved by the pixel's noise.
 GN_FN vec2 gn_pcss_point(bool square, int i, int n, float noise) {
     if (square) {

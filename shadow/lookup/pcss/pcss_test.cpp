@@ -144,6 +144,37 @@ TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     }
 }
 
+/// What lies behind the edge of a cube's face is as far away as it is, in whatever face it is seen.
+TEST(PcssRendered, DistancesAreTheSameBeyondAnEdgeOfACube) {
+    Scene scene = load_scene("courtyard");
+    std::swap(scene.lights.at(0), scene.lights.at(1));
+    const test::ComparisonOptions size{.width = 64, .height = 48, .samples = 4};
+    const auto crossing = test::compare(scene, "pcss,resolution=512,cube.edges=cross", size);
+    const auto bordered = test::compare(std::move(scene), "pcss,resolution=512,cube.edges=guard", size);
+    // What faces end with is clamped to their border, so that it can only be worse.
+    EXPECT_LT(*crossing.errors.rmse, *bordered.errors.rmse + 0.01);
+}
+
+TEST(Pcss, NarrowKernelsAreLengthenedWhicheverWayTheLightsAxesRun) {
+    const Scene scene = load_scene("half-plane");
+    const LightViews views = test::place(scene, "pcss,placement=fit");
+    glsl::GnLookup at{};
+    at.receiver.p_ws = vec3(0.1F, 0, 0.2F);
+    at.receiver.n_ws = vec3(0, 1, 0);
+    at.view = views.views.front();
+    at.projected = glsl::gn_project(at.receiver, at.view, GnBias{});
+    for (const float side : {-1.0F, 1.0F}) {
+        const glsl::GnPcssLight half_light{side * vec3(0.5F, 0, 0), side * vec3(0, 0, 0.5F), true};
+        for (const float spread : {0.0F, 1e-4F, 0.5F}) {
+            const glsl::GnPcssWiden widen = glsl::gn_pcss_widen(at, half_light, spread, 0, 0.01F);
+            const vec2 right = glsl::gn_pcss_shift(at, half_light, vec2(1, 0), spread) + widen.right_ts;
+            const vec2 up = glsl::gn_pcss_shift(at, half_light, vec2(0, 1), spread) + widen.up_ts;
+            EXPECT_GE(glm::length(right), 0.01 - 1e-6) << spread;
+            EXPECT_GE(glm::length(up), 0.01 - 1e-6) << spread;
+        }
+    }
+}
+
 /// What the pyramid decides, the full loops would have found.
 TEST(PcssRendered, EarlyOutsChangeNoSample) {
     for (const char* scene : {"half-plane", "contact:light=spot", "contact:light=point", "fence"}) {
