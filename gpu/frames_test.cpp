@@ -67,8 +67,8 @@ class Host {
     std::uint64_t count_ = 0;
 };
 
-ComputeDesc add_constant() {
-    return {compute_shader("add constant", R"(
+const ComputeDesc& add_constant() {
+    static const ComputeDesc once = sealed({compute_shader("add constant", R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 1, r32f) uniform writeonly image2D target;
@@ -80,7 +80,8 @@ void main() {
     }
 }
 )"),
-            {}};
+                                            {}});
+    return once;
 }
 
 /// out = in + value, through a transient image between.
