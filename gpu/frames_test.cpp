@@ -68,7 +68,7 @@ class Host {
 };
 
 const ComputeDesc& add_constant() {
-    static const ComputeDesc once = sealed({compute_shader("add constant", R"(
+    static const ComputeDesc once = sealed(ComputeDesc{compute_shader("add constant", R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 1, r32f) uniform writeonly image2D target;
@@ -80,7 +80,7 @@ void main() {
     }
 }
 )"),
-                                            {}});
+                                                       {}});
     return once;
 }
 
