@@ -133,9 +133,13 @@ std::string side_calls(const FrameInput& input, const Recipe& recipe, const Shad
 }
 
 std::string map_call(const Part& part, const ShadowMap& map) {
-    return fmt::format("#define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) gn_{}_visibility(at{}, ddx_ts, ddy_ts{})\n",
-                       identifier(part.id), arguments(map, part.textures),
-                       part.params_type.empty() ? "" : ", u.map_params");
+    const std::string id = identifier(part.id);
+    const std::string named = arguments(map, part.textures);
+    const char* const params = part.params_type.empty() ? "" : ", u.map_params";
+    return fmt::format(
+        "#define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) gn_{}_visibility(at{}, ddx_ts, ddy_ts{})\n"
+        "#define GN_MAP_BLOCKERS(at, ddx_ts, ddy_ts) gn_{}_blockers(at{}, ddx_ts, ddy_ts{})\n",
+        id, named, params, id, named, params);
 }
 
 /// What the shader reads: view samples, views, the map's offers, and the parts' parameters.

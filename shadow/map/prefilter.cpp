@@ -227,6 +227,21 @@ ShadowMap filtered_map(const FrameInput& input, const LightViews& views, std::st
     return {.offers = {{std::string(name), blurred, sampler}}};
 }
 
+bool reads_ranges(const Recipe& recipe) {
+    return holds(recipe.lookup->needs, "min-max");
+}
+
+void offer_ranges(const FrameInput& input, const Recipe& recipe, TextureHandle depth, ShadowMap& map) {
+    if (!reads_ranges(recipe)) {
+        return;
+    }
+    if (input.graph.desc(depth).samples > 1) {
+        refuse("lookup '{}' reads the depths beside map '{}', which have {} samples a texel; valid is {}.samples = 1",
+               recipe.lookup->id, recipe.map->id, input.graph.desc(depth).samples, recipe.map->id);
+    }
+    map.offers.push_back({"min-max", add_min_max_pyramid(input.graph, depth), nearest()});
+}
+
 Guard blur_guard(const GnPrefilterParams& params) {
     return {.texels = params.blur == GN_BLUR_NONE ? 0.0F : static_cast<float>(params.radius)};
 }

@@ -33,6 +33,10 @@ std::uint32_t drawn_mips(const GnPrefilterParams& params, std::uint32_t resoluti
 /// The end that blurred maps share: blur, mipmap, and read trilinearly; the one offer has this name. `source` has drawn_mips levels.
 ShadowMap filtered_map(const FrameInput& input, const LightViews& views, std::string_view name, TextureHandle source,
                        const GnPrefilterParams& params);
+/// Whether the recipe's lookup reads the range of depths beside what the map stores.
+bool reads_ranges(const Recipe& recipe);
+/// Offers it where it does: "min-max" of what was drawn (shadow/map/derived.h). Throws Refusal where that has several samples.
+void offer_ranges(const FrameInput& input, const Recipe& recipe, TextureHandle depth, ShadowMap& map);
 /// How far a blurred map's texels reach.
 Guard blur_guard(const GnPrefilterParams& params);
 /// The sentence that refuses a count of samples that add_moments does not take, or "". `parameter`: "vsm.samples".

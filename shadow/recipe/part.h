@@ -34,6 +34,8 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //   map         float gn_<id>_visibility(GnLookup, sampler2DArray for each of `textures`, vec2 ddx_ts, vec2 ddy_ts,
 //               Params), for maps that are `filterable`; lookups that filter call it as
 //               GN_MAP_VISIBILITY(GnLookup, ddx_ts, ddy_ts)
+//               vec2 gn_<id>_blockers(the same), for maps that are filterable and give "min-max": the share of the footprint that
+//               hides the light from the receiver, and its mean depth; called as GN_MAP_BLOCKERS
 
 /// The reach of a kernel: the larger of texels and metres, and besides half of `pixels` sides of the pixel's footprint on the
 /// map. Views are not widened by pixels: no receiver lies beyond the picture, and lookups leave out what lies beyond a view.

@@ -79,14 +79,7 @@ void gn_chs_add(GnLookup at, GnLookup tap, vec3 axis, vec2 middle_ts, vec2 uv_ts
     if (plane <= depth) {
         return;
     }
-    float distance = gn_pcss_distance(tap.view, axis, uv_ts, depth);
-#ifdef GN_CROSSING
-    // Parallel views begin at different depths.
-    if (tap.view.eye_ws.w <= 0.5) {
-        float seen = gn_pcss_distance(at.view, axis, middle_ts, gn_depth_at(at.projected, middle_ts, at.bias));
-        distance = seen - (plane - depth) * tap.projected.metres_per_depth;
-    }
-#endif
+    float distance = gn_pcss_seen(at, tap, axis, middle_ts, uv_ts, plane, depth);
     sum.hidden += weight;
     sum.distance += weight * distance;
 }

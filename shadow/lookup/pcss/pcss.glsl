@@ -37,14 +37,7 @@ GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, vec3 axis, vec2 tap_ts)
     float occluder = gn_map_texel(depth, tap, texel).r;
     float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
     bool lit = plane <= occluder;
-    float distance = gn_pcss_distance(tap.view, axis, uv_ts, occluder);
-#ifdef GN_CROSSING
-    // Parallel views begin at different depths: as much nearer than the receiver's plane in its own view as in the tap's.
-    if (tap.view.eye_ws.w <= 0.5) {
-        float seen = gn_pcss_distance(at.view, axis, tap_ts, gn_depth_at(at.projected, tap_ts, at.bias));
-        distance = seen - (plane - occluder) * tap.projected.metres_per_depth;
-    }
-#endif
+    float distance = gn_pcss_seen(at, tap, axis, tap_ts, uv_ts, plane, occluder);
     return GnPcssTap(distance, lit);
 }
 

@@ -159,6 +159,19 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
     return vec2(found.x, farthest <= found.x ? 1.0 : nearest > found.y ? 0.0 : -1.0);
 }
 
+// Metres along the axis to what a tap holds: where tap_ts lies on the receiver's map, uv_ts on that of the tap's own view, and
+// there the receiver's plane at the depth `plane`.
+float gn_pcss_seen(GnLookup at, GnLookup tap, vec3 axis, vec2 tap_ts, vec2 uv_ts, float plane, float depth) {
+#ifdef GN_CROSSING
+    // Parallel views begin at different depths: as much nearer than the receiver's plane in its own view as in the tap's.
+    if (tap.view.eye_ws.w <= 0.5) {
+        float here = gn_pcss_distance(at.view, axis, tap_ts, gn_depth_at(at.projected, tap_ts, at.bias));
+        return here - (plane - depth) * tap.projected.metres_per_depth;
+    }
+#endif
+    return gn_pcss_distance(tap.view, axis, uv_ts, depth);
+}
+
 // Where what hides the light from a receiver can lie.
 struct GnPcssRegion {
     float visibility;  // 0 or 1 where the extremes decide, else -1

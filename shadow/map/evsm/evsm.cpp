@@ -37,10 +37,13 @@ layout(location = 0) out vec4 out_moments;
 )";
     moments.fragment.reads_slope = params.slope_moment != 0;
     moments.fragment.inputs.constant("GnEvsmParams", "params", params);
+    moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, views, "moments", raw, params.prefilter);
+    ShadowMap map = filtered_map(input, views, "moments", raw, params.prefilter);
+    offer_ranges(input, recipe, moments.depth, map);
+    return map;
 }
 
 std::vector<Feature> features_for(const Recipe& recipe) {
@@ -111,7 +114,7 @@ const Part& map_evsm() {
         p.title = "Exponential variance shadow maps";
         p.citation = "Lau08";
         p.filterable = true;
-        p.gives = {"moments"};
+        p.gives = {"moments", "min-max"};
         p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();

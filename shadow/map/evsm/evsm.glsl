@@ -69,9 +69,33 @@ GN_FN float gn_evsm_receiver(GnProjected projected, float c) {
     return projected.depth + projected.bias * (1.0f - 0.5f / max(c, 0.5f));
 }
 
+// The share that lies before `depth`, and its mean depth, by the warp that keeps near depths apart: -exp(-c z) where it is stored.
+GN_FN vec2 gn_evsm_found(vec4 moments, float depth, float deviation, GnEvsmParams params) {
+    float d = clamp(depth, 0.0f, 1.0f);
+    vec2 c = gn_evsm_exponents(params);
+    bool four = params.components == GN_EVSM_FOUR;
+    float warped = four ? gn_evsm_negative(d, c.y) : gn_evsm_positive(d, c.x);
+    float mean = four ? moments.z : moments.x;
+    float lit = gn_evsm_bound(vec2(moments.x, moments.y), gn_evsm_positive(d, c.x), c.x, deviation, params.format);
+    if (four) {
+        lit = min(lit, gn_evsm_bound(vec2(moments.z, moments.w), warped, c.y, deviation, params.format));
+    }
+    float share = max(1.0f - lit, 1.0e-6f);
+    float blocker = abs((mean - lit * warped) / share);
+    float z = log(max(blocker, 1.0e-30f)) / (four ? -c.y : c.x);
+    return vec2(1.0f - lit, clamp(0.5f + 0.5f * z, 0.0f, d));
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
+
+vec2 gn_evsm_blockers(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnEvsmParams params) {
+    vec4 m = gn_map_mean(moments, at.projected, at.projected.layer, ddx_ts, ddy_ts);
+    vec2 c = gn_evsm_exponents(params);
+    float depth = gn_evsm_receiver(at.projected, max(c.x, c.y));
+    return gn_evsm_found(m, depth, gn_vsm_deviation(at.projected, params.min_deviation), params);
+}
 
 float gn_evsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnEvsmParams params) {
     GnProjected projected = at.projected;

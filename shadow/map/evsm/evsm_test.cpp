@@ -75,6 +75,21 @@ TEST(Evsm, BoundIsExactOnParallelPlanes) {
     }
 }
 
+TEST(Evsm, BlockersOfTwoDepthsAreTheNearerOne) {
+    for (const int components : {GN_EVSM_TWO, GN_EVSM_FOUR}) {
+        for (int hidden = 1; hidden < 20; ++hidden) {
+            Kernel kernel;
+            for (int i = 0; i < 20; ++i) {
+                kernel.depths.push_back(i < hidden ? 0.4F : 0.6F);
+            }
+            const vec2 found = gn_evsm_found(kernel.warped(exact(components)), 0.6F, 0, exact(components));
+            EXPECT_NEAR(found.x, static_cast<float>(hidden) / 20, 1e-4);
+            // The positive warp of the receiver is e^8 of the blocker's: what is left of its rounding is a share of it.
+            EXPECT_NEAR(found.y, 0.4F, components == GN_EVSM_FOUR ? 1e-4 : 5e-3) << components << " " << hidden;
+        }
+    }
+}
+
 TEST(Evsm, IsAtMostTheVarianceBoundAndAtLeastPercentageCloserFiltering) {
     // Where nothing in the kernel lies beyond the receiver, a convex warp can only lower Chebyshev's bound: with t the
     // zero of the optimal square of the plain bound, (f(x) - f(t)) / (f(d) - f(t)) <= (x - t) / (d - t) for x <= d.

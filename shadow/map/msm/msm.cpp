@@ -24,10 +24,13 @@ layout(location = 0) out vec4 out_moments;
 )";
     moments.fragment.body = "out_moments = gn_msm_encode(depth, u.params.format);";
     moments.fragment.inputs.constant("GnMsmParams", "params", params);
+    moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, views, "moments", raw, params.prefilter);
+    ShadowMap map = filtered_map(input, views, "moments", raw, params.prefilter);
+    offer_ranges(input, recipe, moments.depth, map);
+    return map;
 }
 
 std::vector<Feature> features_for(const Recipe& recipe) {
@@ -76,7 +79,7 @@ const Part& map_msm() {
         p.title = "Moment shadow maps";
         p.citation = "PK15";
         p.filterable = true;
-        p.gives = {"moments"};
+        p.gives = {"moments", "min-max"};
         p.textures = {"moments"};
         p.features_for = features_for;
         p.params = rows();

@@ -107,6 +107,18 @@ GN_FN float gn_msm_visible(vec4 stored, float depth, GnMsmParams params) {
     return clamp((1.0f - shadow - params.bleeding) / (1.0f - params.bleeding), 0.0f, 1.0f);
 }
 
+// The share that lies before z, and its mean: of the points of the representation that has z among them.
+GN_FN vec2 gn_msm_before(vec4 b, float z) {
+    vec2 roots = gn_msm_roots(b, z);
+    if (z <= roots.x) {
+        return vec2(0.0f, z);
+    }
+    float first = max(gn_msm_mass(b, roots.x, z, roots.y), 0.0f);
+    float second = z > roots.y ? max(gn_msm_mass(b, roots.y, z, roots.x), 0.0f) : 0.0f;
+    float share = first + second;
+    return vec2(clamp(share, 0.0f, 1.0f), (first * roots.x + second * roots.y) / max(share, 1.0e-6f));
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
@@ -116,6 +128,15 @@ float gn_msm_ramp(GnProjected projected, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams p
     float blur = params.prefilter.blur == GN_BLUR_NONE ? 0.5 : float(params.prefilter.radius) + 0.5;
     vec2 half_ts = max(0.5 * (abs(ddx_ts) + abs(ddy_ts)), vec2(blur * projected.texel_ts));
     return dot(abs(projected.plane_slope), half_ts);
+}
+
+vec2 gn_msm_blockers(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams params) {
+    GnProjected projected = at.projected;
+    vec4 stored = gn_map_mean(moments, projected, projected.layer, ddx_ts, ddy_ts);
+    vec4 b = gn_msm_biased(params.format == GN_MSM_UNORM16 ? gn_msm_dequantize(stored) : stored, params.moment_bias);
+    float bias = params.ramp * gn_msm_ramp(projected, ddx_ts, ddy_ts, params) + params.depth_bias / projected.metres_per_depth;
+    vec2 found = gn_msm_before(b, clamp(2.0 * (projected.depth - bias) - 1.0, -0.9999, 0.9999));
+    return vec2(found.x, clamp(0.5 + 0.5 * found.y, 0.0, 1.0));
 }
 
 float gn_msm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnMsmParams params) {

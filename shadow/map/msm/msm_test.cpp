@@ -75,6 +75,16 @@ TEST(Msm, TendsToTheExactShareOnTwoPlanes) {
     EXPECT_LT(worst[2], 0.02);
 }
 
+TEST(Msm, BlockersOfTwoDepthsAreTheNearerOne) {
+    // Three points have these moments once the bias moves them inside: one is the receiver, and the mean of those before it
+    // tends to the depth that there is.
+    for (float share = 0.1F; share < 0.95F; share += 0.1F) {
+        const vec2 found = gn_msm_before(gn_msm_biased(two_planes(0.2F, 0.8F, share), 1e-4F), 2 * 0.7F - 1);
+        EXPECT_NEAR(found.x, share, 0.02) << share;
+        EXPECT_NEAR(0.5F + 0.5F * found.y, 0.2, 0.02) << share;
+    }
+}
+
 TEST(Msm, IsNeverDarkerThanPercentageCloserFiltering) {
     // Hamburger's bound holds for every distribution, Hausdorff's for those in [0,1], and is the sharper.
     std::mt19937 random(11);

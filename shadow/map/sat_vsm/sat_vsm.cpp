@@ -25,12 +25,15 @@ ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const Light
                                 ? "out_moments = vec4(gn_vsm_moments(depth, gn_vsm_spread(slope.x, slope.y)), 0, 0);"
                                 : "out_moments = vec4(gn_vsm_moments(depth, 0.0), 0, 0);";
     moments.fragment.reads_slope = params.slope_moment != 0;
+    moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Sum.
     const TextureHandle sums = add_sat(
         input.graph, raw, {.table = params.table, .scan = params.scan, .max_box = params.max_box}, input.prepared);
-    return {.offers = {{"sums", sums, nearest()}}};
+    ShadowMap map{.offers = {{"sums", sums, nearest()}}};
+    offer_ranges(input, recipe, moments.depth, map);
+    return map;
 }
 
 Guard guard(const Recipe& recipe, const Light&, const Box&) {
@@ -73,7 +76,7 @@ const Part& map_sat_vsm() {
         p.title = "Summed-area variance shadow maps";
         p.citation = "Lau07";
         p.filterable = true;
-        p.gives = {"sums"};
+        p.gives = {"sums", "min-max"};
         p.textures = {"sums"};
         p.params = rows();
         p.params_type = "GnSatVsmParams";

@@ -40,7 +40,8 @@ GN_FN ivec2 gn_sat_cut(GnSatSpan span, int offset, int low, int high) {
 }  // namespace gn::glsl
 #else
 
-float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
+// Moments of the box that holds the footprint.
+vec2 gn_sat_vsm_moments(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
     GnProjected projected = at.projected;
     // The box that holds the footprint, at least the kernel asked for.
     vec2 t = projected.uv_ts / projected.texel_ts;
@@ -58,11 +59,24 @@ float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 
                                             gn_sat_cut(u, x, bounds.x, bounds.z), gn_sat_cut(v, y, bounds.y, bounds.w)).xy;
         }
     }
+    return gn_vsm_limit(moments, params.max_deviation);
+}
+
+float gn_sat_vsm_variance(GnProjected projected, GnSatVsmParams params) {
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
     float rounding = params.table == GN_SAT_UINT32 ? 1.0 / gn_sat_levels(params.max_box) : 0.0;
-    moments = gn_vsm_limit(moments, params.max_deviation);
-    float bound = gn_vsm_chebyshev(moments, projected.depth, max(deviation * deviation, rounding));
+    return max(deviation * deviation, rounding);
+}
+
+float gn_sat_vsm_visibility(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
+    vec2 moments = gn_sat_vsm_moments(at, sums, ddx_ts, ddy_ts, params);
+    float bound = gn_vsm_chebyshev(moments, at.projected.depth, gn_sat_vsm_variance(at.projected, params));
     return gn_vsm_reduce(bound, params.bleeding, params.reduction);
+}
+
+vec2 gn_sat_vsm_blockers(GnLookup at, sampler2DArray sums, vec2 ddx_ts, vec2 ddy_ts, GnSatVsmParams params) {
+    vec2 moments = gn_sat_vsm_moments(at, sums, ddx_ts, ddy_ts, params);
+    return gn_vsm_found(moments, at.projected.depth, gn_sat_vsm_variance(at.projected, params));
 }
 
 #endif

@@ -23,10 +23,13 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
                                 ? "out_moments = vec4(gn_vsm_moments(depth, gn_vsm_spread(slope.x, slope.y)), 0, 0);"
                                 : "out_moments = vec4(gn_vsm_moments(depth, 0.0), 0, 0);";
     moments.fragment.reads_slope = params.slope_moment != 0;
+    moments.depth = create_depth(input, views, moments);
     const TextureHandle raw = add_moments(input, recipe, views, moments);
 
     // Blur and mipmap.
-    return filtered_map(input, views, "moments", raw, params.prefilter);
+    ShadowMap map = filtered_map(input, views, "moments", raw, params.prefilter);
+    offer_ranges(input, recipe, moments.depth, map);
+    return map;
 }
 
 Guard guard(const Recipe& recipe, const Light&, const Box&) {
@@ -49,7 +52,7 @@ const Part& map_vsm() {
         p.title = "Variance shadow maps";
         p.citation = "DL06";
         p.filterable = true;
-        p.gives = {"moments"};
+        p.gives = {"moments", "min-max"};
         p.textures = {"moments"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnVsmParams>(with_prefilter(

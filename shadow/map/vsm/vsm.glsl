@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Variance shadow maps: two moments of depth and Chebyshev's bound.
 // Based on: Donnelly, Lauritzen. Variance Shadow Maps. I3D 2006. [DL06]
+// The mean depth of what hides the light: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010.
+// [YDF+10]
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
 #ifndef GN_SHADOW_MAP_VSM_GLSL
 #define GN_SHADOW_MAP_VSM_GLSL
@@ -53,9 +55,21 @@ GN_FN float gn_vsm_reduce(float bound, float amount, int reduction) {
     return reduction == GN_VSM_SMOOTHSTEP ? v * v * (3.0f - 2.0f * v) : v;
 }
 
+// The share that lies before `depth`, at least, and its mean depth: the rest is taken for the receiver's own. [YDF+10]
+GN_FN vec2 gn_vsm_found(vec2 moments, float depth, float min_variance) {
+    float lit = gn_vsm_chebyshev(moments, depth, min_variance);
+    return vec2(1.0f - lit, (moments.x - lit * depth) / max(1.0f - lit, 1.0e-6f));
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
+
+vec2 gn_vsm_blockers(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
+    vec2 m = gn_map_mean(moments, at.projected, at.projected.layer, ddx_ts, ddy_ts).xy;
+    float deviation = gn_vsm_deviation(at.projected, params.min_deviation);
+    return gn_vsm_found(gn_vsm_limit(m, params.max_deviation), at.projected.depth, deviation * deviation);
+}
 
 float gn_vsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
     GnProjected projected = at.projected;

@@ -37,6 +37,16 @@ TEST(Vsm, BoundIsExactOnParallelPlanes) {
     }
 }
 
+TEST(Vsm, BlockersOfTwoDepthsAreTheNearerOne) {
+    // A share of the kernel sees the occluder's plane, the rest the receiver's own: both are found as they are.
+    for (float share = 0.05F; share < 1; share += 0.05F) {
+        const vec2 found = gn_vsm_found(moments_of(0.3F, 0.7F, share), 0.7F, 0);
+        EXPECT_NEAR(found.x, share, 1e-5);
+        EXPECT_NEAR(found.y, 0.3F, 1e-4) << share;
+    }
+    EXPECT_EQ(gn_vsm_found(moments_of(0.7F, 0.9F, 0.5F), 0.7F, 0).x, 0) << "nothing lies before it";
+}
+
 TEST(Vsm, BoundIsNeverBelowPercentageCloserFiltering) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> uniform(0, 1);

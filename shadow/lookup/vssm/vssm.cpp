@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer soft shadows in a few fetches of a prefiltered map.
+//
+// Based on: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010. [YDF+10]
+// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+#include "shadow/lookup/vssm/vssm.h"
+
+#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/recipe.h"
+
+namespace gn {
+namespace {
+
+Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
+    return light_guard(light, bounds_ws, recipe.of<GnVssmParams>("vssm").least);
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_vssm() {
+    static const Part part = [] {
+        Part p;
+        p.id = "vssm";
+        p.stage = Stage::lookup;
+        p.title = "Soft shadows from a prefiltered map";
+        p.citation = "YDF+10";
+        p.needs = {"min-max"};
+        p.filters = true;
+        p.params = param_table<GnVssmParams>({
+            GN_PARAM(GnVssmParams, side, integer, 1, 8, "",
+                     "Parts along a side of a kernel: less bleeding and truer slopes, cost grows with its square."),
+            GN_PARAM(GnVssmParams, least, real, 0, 16, "texels",
+                     "Half width of the narrowest kernel: below one the map's texels show at contacts."),
+            GN_PARAM(
+                GnVssmParams, early_out, boolean, 0, 1, "",
+                "Skips the search where the least and greatest depth of its region say that all of the light is seen, "
+                "or none: less bleeding there, too."),
+        });
+        p.params_type = "GnVssmParams";
+        p.glsl = "shadow/lookup/vssm/vssm.glsl";
+        p.guard = guard;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer soft shadows in a few fetches of a prefiltered map: the map tells the mean depth of what hides the light, and
+// filters as wide as that makes the penumbra.
+// Based on: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010. [YDF+10]
+// Departs from it: any map that is filterable and tells its blockers serves; the parts of a kernel follow the receiver's plane, and
+// are always as many.
+#ifndef GN_SHADOW_LOOKUP_VSSM_GLSL
+#define GN_SHADOW_LOOKUP_VSSM_GLSL
+
+#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/lookup/vssm/vssm.h"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// What stands for the light on the map: half the sides of a parallelogram, in whose parts the middles of the fetches lie, and of
+// the box around each of them, which lies along the map's axes as tables and mips do.
+struct GnVssmKernel {
+    vec2 right_ts;
+    vec2 up_ts;
+    vec2 box_ts;
+};
+
+// Of a disc the square whose points lie as far from the middle, on the root mean square: 1/4 of r^2 along each axis is 1/3 of
+// the square of half the side.
+GN_FN float gn_vssm_share(bool square) { return square ? 1.0f : 0.8660254f; }
+
+// Half the sides of the box along the map's axes whose points lie as far from the middle along each of them as a parallelogram's.
+GN_FN vec2 gn_vssm_box(vec2 right_ts, vec2 up_ts) { return sqrt(right_ts * right_ts + up_ts * up_ts); }
+
+GN_FN GnVssmKernel gn_vssm_kernel(GnLookup at, GnPcssLight half_light, float spread, float least_ts, int side) {
+    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0f, least_ts);
+    float share = gn_vssm_share(half_light.square);
+    GnVssmKernel kernel;
+    kernel.right_ts = share * (gn_pcss_shift(at, half_light, vec2(1.0f, 0.0f), spread) + widen.right_ts);
+    kernel.up_ts = share * (gn_pcss_shift(at, half_light, vec2(0.0f, 1.0f), spread) + widen.up_ts);
+    kernel.box_ts = gn_vssm_box(kernel.right_ts, kernel.up_ts) / float(side);
+    return kernel;
+}
+
+// The middle of part i of side * side, in half sides of the kernel.
+GN_FN vec2 gn_vssm_part(int i, int side) {
+    return (2.0f * vec2(float(i % side), float(i / side)) + 1.0f) / float(side) - 1.0f;
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#elif defined(GN_MAP_BLOCKERS)
+
+// The map's own answers, which the host calls by these names:
+//   #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
+//   with #define GN_MAP_BLOCKERS(at, ddx_ts, ddy_ts) vec2(0.0)
+// Where kernels cross views:
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
+//   with #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
+//   with #define GN_MAP_BLOCKERS(at, ddx_ts, ddy_ts) vec2(0.0)
+
+// The receiver moved along its own plane to where the map sees a part's middle.
+GnLookup gn_vssm_beside(GnLookup at, vec2 middle_ts) {
+#ifdef GN_CROSSING
+    if (!gn_within_view(at.projected, middle_ts, middle_ts)) {
+        return gn_at_tap(at, middle_ts);
+    }
+#endif
+    GnLookup beside = at;
+    beside.projected.uv_ts = clamp(middle_ts, at.projected.bounds_ts.xy, at.projected.bounds_ts.zw);
+    beside.projected.depth = gn_depth_at(at.projected, beside.projected.uv_ts, at.bias);
+    return beside;
+}
+
+float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    if (region.visibility >= 0.0) {
+        return region.visibility;
+    }
+    int parts = params.side * params.side;
+    float least_ts = params.least * at.projected.texel_ts;
+
+    // Search: what hides the light in each part of the region, and how far away it is.
+    GnVssmKernel kernel = gn_vssm_kernel(at, half_light, region.spread, least_ts, params.side);
+    float hidden = 0.0;
+    float distance = 0.0;
+    for (int i = 0; i < parts; ++i) {
+        vec2 q = gn_vssm_part(i, params.side);
+        vec2 middle_ts = at.projected.uv_ts + q.x * kernel.right_ts + q.y * kernel.up_ts;
+        GnLookup part = gn_vssm_beside(at, middle_ts);
+        vec2 found = GN_MAP_BLOCKERS(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
+        float depth = clamp(found.y, 0.0, max(part.projected.depth, 0.0));
+        hidden += found.x;
+        distance += found.x * gn_pcss_seen(at, part, axis, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
+    }
+    if (hidden <= 1.0e-3 * float(parts)) {
+        return 1.0;
+    }
+
+    // Filter as wide as the penumbra.
+    float blocker = clamp(distance / hidden, min(region.nearest, region.receiver), region.receiver);
+    kernel = gn_vssm_kernel(at, half_light, gn_pcss_spread_at(at, region.receiver, blocker), least_ts, params.side);
+    float lit = 0.0;
+    for (int i = 0; i < parts; ++i) {
+        vec2 q = gn_vssm_part(i, params.side);
+        GnLookup part = gn_vssm_beside(at, at.projected.uv_ts + q.x * kernel.right_ts + q.y * kernel.up_ts);
+        lit += GN_MAP_VISIBILITY(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
+    }
+    return lit / float(parts);
+}
+
+#endif
+#endif

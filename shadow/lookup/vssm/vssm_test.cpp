@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The penumbra of a half-plane is as wide as the light makes it, whatever the map's resolution and the kind of light, though the
+// map is only asked for a few boxes.
+#include "shadow/lookup/vssm/vssm.glsl"
+
+#include "tests/rig.h"
+
+#include <array>
+#include <cmath>
+
+namespace gn {
+namespace {
+
+using namespace gn::glsl;
+
+TEST(Vssm, PartsSpreadAsFarAsTheLight) {
+    // Second moments along both axes of the map: of the middles and of a box around each, against those of the light, which are
+    // a third of half a rectangle's side, squared, and a quarter of a disc's radius, squared.
+    const vec2 right(3, 1), up(-0.5F, 2);
+    for (const bool square : {false, true}) {
+        for (const int side : {1, 2, 3, 8}) {
+            const float share = gn_vssm_share(square);
+            const vec2 box = gn_vssm_box(share * right, share * up) / static_cast<float>(side);
+            vec2 spread = box * box / 3.0F;
+            for (int i = 0; i < side * side; ++i) {
+                const vec2 q = share * gn_vssm_part(i, side);
+                const vec2 middle = q.x * right + q.y * up;
+                spread += middle * middle / static_cast<float>(side * side);
+            }
+            const vec2 expected = (right * right + up * up) * (square ? 1.0F / 3 : 0.25F);
+            EXPECT_NEAR(spread.x, expected.x, 1e-5) << side;
+            EXPECT_NEAR(spread.y, expected.y, 1e-5) << side;
+        }
+    }
+}
+
+/// V minus the truth, by how much of the light the truth sees.
+struct Slice {
+    double sum = 0;
+    int samples = 0;
+};
+
+TEST(VssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
+    for (const char* scene :
+         {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
+        for (const int resolution : {256, 1024}) {
+            const auto c = test::compare(scene, fmt::format("vssm,resolution={}", resolution),
+                                         {.width = 64, .height = 48, .samples = 64});
+            std::array<Slice, 10> slices{};
+            for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+                const float x = c.frame.samples.position_ws[i].x;
+                if (c.truth.counted[i] != 0 && std::abs(x) < 1) {
+                    Slice& slice = slices.at(static_cast<std::size_t>(5 * (x + 1)));
+                    slice.sum += static_cast<double>(c.visibility().values[i] - c.truth.visibility[i]);
+                    ++slice.samples;
+                }
+            }
+            // A disc's ramp and that of the square that stands for it differ by at most 0.029, at the square's side. The map
+            // decides a caster's edge to its texel, as seen on the receiver 2 m behind it: views are at most 24 m wide there,
+            // ramps at least 0.5 m; boxes blend texels, so that it is half of one.
+            const double shape = 0.029, texel = 24.0 / resolution / 2 / 0.5 / 2;
+            for (std::size_t s = 0; s < slices.size(); ++s) {
+                if (slices.at(s).samples > 20) {
+                    EXPECT_NEAR(slices.at(s).sum / slices.at(s).samples, 0, shape + texel)
+                        << scene << " at " << resolution << ", slice " << s;
+                }
+            }
+        }
+    }
+}
+
+/// Every part of a kernel meets the plane where it is, so that a slope is no blocker of its own.
+TEST(VssmRendered, ASlopeDoesNotShadeItself) {
+    const auto c = test::compare("tilted:angle=75", "vssm,resolution=256", {.width = 64, .height = 48, .samples = 1});
+    EXPECT_LE(*c.errors.acne, 1e-4);
+}
+
+}  // namespace
+}  // namespace gn
