@@ -46,7 +46,7 @@ GN_FN vec2 gn_vssm_part(int i, int side) {
 
 #ifdef __cplusplus
 }  // namespace gn::glsl
-#elif defined(GN_MAP_BLOCKERS)
+#elif defined(GN_MAP_VISIBILITY)
 
 // The map's own answers, which the host calls by these names:
 //   #define GN_MAP_VISIBILITY(at, ddx_ts, ddy_ts) 1.0
