@@ -28,10 +28,10 @@ vec2 found_of_two(float d_o, float d_r, float share, int terms, float offset) {
     float waves = 0;
     float depth_waves = 0;
     for (int g = 0; g < groups; ++g) {
-        waves += gn_convolution_group(mean([&](float z) { return gn_convolution_encode(z, g, span); }), receiver, g,
-                                      series);
-        depth_waves += gn_convolution_group(mean([&](float z) { return gn_cssm_encode(z, g, terms, span); }), receiver,
-                                            g, series);
+        waves +=
+            gn_convolution_group(mean([&](float z) { return gn_convolution_encode(z, g, span); }), receiver, g, series);
+        depth_waves +=
+            gn_convolution_group(mean([&](float z) { return gn_cssm_encode(z, g, terms, span); }), receiver, g, series);
     }
     const vec4 last = mean([&](float z) { return gn_cssm_encode(z, groups, terms, span); });
     return gn_cssm_found(waves, depth_waves, last.x, span);

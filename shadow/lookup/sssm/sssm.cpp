@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Separable soft shadows: rows of the kernel from the map, and its columns from the neighbours in the picture.
+//
+// Based on: Buades, Gumbau, Chover. Separable Soft Shadow Mapping. The Visual Computer 2016. [BGC16]
+// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+#include "shadow/lookup/sssm/sssm.h"
+
+#include "shadow/frame/frame.h"
+#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/receiver/channels.h"
+#include "shadow/receiver/expect.h"
+#include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/recipe.h"
+
+namespace gn {
+namespace {
+
+// The neighbours along the light's other axis, and what they have read: take(texel, weight).
+constexpr const char* columns_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void columns(ivec2 pixel, vec3 p_ws, vec4 normal, float spread, inout GnSssmColumn sum) {
+    GnPcssLight half_light = gn_pcss_light(u.light, p_ws);
+    ivec2 size = ivec2(u.view.size.xy);
+    float pixel_ws = gn_pixel_growth(u.view, normal.w) * length(u.view.right_ws.xyz);
+    for (int j = 0; j < u.params.side; ++j) {
+        float y = gn_sssm_point(j, u.params.side, 0.5, 0);
+        vec4 beside = gn_sssm_neighbour(u.light, p_ws, normal.xyz, spread * y * half_light.up_ws);
+        vec3 seen = gn_reproject(u.view.cs_from_ws, mat4(1.0), beside.xyz);
+        ivec2 other = ivec2(floor(seen.xy * vec2(size)));
+        if (beside.w == 0.0 || seen.z == 0.0 || any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) {
+            continue;
+        }
+        vec4 q = gbuffer_position_texel(other);
+        vec3 q_n = gbuffer_normal_texel(other).xyz;
+        // A neighbour is of use where it lies on the receiver's plane.
+        if (q.w < 0.5 || !gn_counted(u.whole, q.xyz, q_n) || dot(normal.xyz, q_n) < 0.9 ||
+            abs(dot(normal.xyz, q.xyz - p_ws)) > u.params.plane * pixel_ws) {
+            continue;
+        }
+        gn_sssm_take(sum, other, spread, gn_sssm_weight(half_light.square, y));
+    }
+}
+)";
+
+constexpr const char* search_text = R"(
+struct GnSssmColumn { float weight; float hidden; float before; };
+void gn_sssm_take(inout GnSssmColumn sum, ivec2 other, float spread, float weight) {
+    vec3 row = texelFetch(rows, other, 0).xyz;
+    sum.weight += weight;
+    sum.hidden += weight * row.x;
+    sum.before += weight * row.x * gn_sssm_unpack(row.y);
+}
+)";
+
+constexpr const char* search_main = R"(
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    vec4 position = gbuffer_position_texel(pixel);
+    vec4 normal = gbuffer_normal_texel(pixel);
+    vec3 own = texelFetch(rows, pixel, 0).xyz;
+    float spread = -1.0;
+    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && own.z > 0.0) {
+        GnSssmColumn sum = GnSssmColumn(0.0, 0.0, 0.0);
+        if (own.z < 1.0) {
+            columns(pixel, position.xyz, normal, gn_sssm_unpack(own.z), sum);
+        }
+        // Where no neighbour is of use a row must do.
+        if (sum.weight == 0.0) {
+            gn_sssm_take(sum, pixel, 0.0, 1.0);
+        }
+        spread = own.z >= 1.0 ? 1.0e7 : sum.hidden > 0.0 ? gn_sssm_spread(u.light, position.xyz, sum.before / sum.hidden) : -1.0;
+    }
+    imageStore(result, pixel, vec4(min(spread, 1.0e7)));
+}
+)";
+
+constexpr const char* filter_text = R"(
+struct GnSssmColumn { float weight; float lit; };
+void gn_sssm_take(inout GnSssmColumn sum, ivec2 other, float spread, float weight) {
+    // Of one that has searched and found another penumbra the row is of no use.
+    float theirs = texelFetch(spreads, other, 0).r;
+    bool alike = theirs < 0.0 || theirs > 1.0e6 || max(theirs, spread) <= u.params.widths * min(theirs, spread);
+    if (alike) {
+        sum.weight += weight;
+        sum.lit += weight * texelFetch(rows, other, 0).r;
+    }
+}
+)";
+
+constexpr const char* filter_main = R"(
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    vec4 position = gbuffer_position_texel(pixel);
+    vec4 normal = gbuffer_normal_texel(pixel);
+    float v = texelFetch(rows, pixel, 0).r;
+    float spread = texelFetch(spreads, pixel, 0).r;
+    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && spread > 0.0 && spread < 1.0e6) {
+        GnSssmColumn sum = GnSssmColumn(0.0, 0.0);
+        columns(pixel, position.xyz, normal, spread, sum);
+        v = sum.weight > 0.0 ? sum.lit / sum.weight : v;
+    }
+    imageStore(result, pixel, vec4(gn_unit(v)));
+}
+)";
+
+/// One pass over the picture that gathers rows. `spreads`: invalid in the search, which makes them.
+TextureHandle add_columns(const FrameInput& input, const Recipe& recipe, TextureHandle rows, TextureHandle spreads) {
+    const bool filters = spreads.valid();
+    const TextureHandle result = create_visibility(input.graph, input.samples);
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, input.samples);
+    inputs.texture("sampler2D", "rows", rows);
+    if (filters) {
+        inputs.texture("sampler2D", "spreads", spreads);
+    }
+    inputs.image(image_format(visibility_format(1)), "writeonly", "image2D", "result", result);
+    inputs.constant("GnViewConstants", "view", input.samples.constants)
+        .constant("GnLight", "light", input.light().shape)
+        .constant("GnLight", "whole", input.whole_light().shape)
+        .constant("GnSssmParams", "params", recipe.of<GnSssmParams>("sssm"));
+    const char* const name = filters ? "filter columns" : "search columns";
+    const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
+        return expect_text(input.device) + channels_text(1) + include_line("shadow/view/view.glsl") +
+               include_line("shadow/receiver/reprojection.glsl") + include_line("shadow/lookup/sssm/sssm.glsl") +
+               inputs.text() + (filters ? filter_text : search_text) + columns_text +
+               (filters ? filter_main : search_main);
+    });
+    input.graph.add_pass(
+        name, [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch_pixels(size.x, size.y);
+        });
+    return result;
+}
+
+std::string search_prologue(const Recipe&) {
+    return "#define GN_SSSM_SEARCH\n";
+}
+std::string filter_prologue(const Recipe&) {
+    return "#define GN_SSSM_FILTER\n";
+}
+std::string grid_prologue(const Recipe&) {
+    return "#define GN_SSSM_GRID\n";
+}
+
+/// The part as the shared resolve pass runs it, in one of its passes.
+Part pass_of(const Part& part, std::string (*prologue)(const Recipe&)) {
+    Part pass = part;
+    pass.add_lookup = nullptr;
+    pass.prologue = prologue;
+    return pass;
+}
+
+Visibility resolve_with(const FrameInput& input, Recipe recipe, const Part& pass, const LightViews& views,
+                        const ShadowMap& map) {
+    recipe.lookup = &pass;
+    return add_resolve(input, recipe, views, map);
+}
+
+Visibility add_sssm(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
+    static const Part grid = pass_of(*recipe.lookup, grid_prologue);
+    if (recipe.of<GnSssmParams>("sssm").separable == 0) {
+        return resolve_with(input, recipe, grid, views, map);
+    }
+    static const Part search = [](const Part& part) {
+        Part pass = pass_of(part, search_prologue);
+        pass.channels = 3;
+        return pass;
+    }(*recipe.lookup);
+    static const Part filter = [](const Part& part) {
+        Part pass = pass_of(part, filter_prologue);
+        pass.needs.emplace_back("spreads");
+        return pass;
+    }(*recipe.lookup);
+
+    // Search: rows from the map, columns from the picture.
+    const TextureHandle blockers = resolve_with(input, recipe, search, views, map).image;
+    const TextureHandle spreads = add_columns(input, recipe, blockers, {});
+
+    // Filter likewise, as wide as the penumbra.
+    ShadowMap with_spreads = map;
+    with_spreads.offers.push_back({"spreads", spreads, nearest()});
+    const TextureHandle rows = resolve_with(input, recipe, filter, views, with_spreads).image;
+    return {add_columns(input, recipe, rows, spreads)};
+}
+
+Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
+    return light_guard(light, bounds_ws, recipe.of<GnSssmParams>("sssm").least);
+}
+
+ParamTable rows() {
+    return param_table<GnSssmParams>({
+        GN_PARAM(GnSssmParams, separable, boolean, 0, 1, "",
+                 "Reads a row of each kernel and takes the others from neighbours; else the whole grid, `side` times as dear."),
+        GN_PARAM(GnSssmParams, side, integer, 1, 64, "", "Points of a row, and rows: smoother penumbrae, cost in proportion."),
+        GN_PARAM(GnSssmParams, jitter, boolean, 0, 1, "", "Moves a pixel's row by noise: grain instead of steps."),
+        GN_PARAM(GnSssmParams, least, real, 0, 16, "texels",
+                 "Half width of the narrowest kernel: below one the map's texels show at contacts."),
+        GN_PARAM(GnSssmParams, plane, real, 0.1, 1000, "pixels",
+                 "How far off the receiver's plane a neighbour may lie, in widths of a pixel: smoother curved surfaces, bleeding over steps."),
+        GN_PARAM(GnSssmParams, widths, real, 1, 1000, "",
+                 "How many times wider a neighbour's penumbra may be: fewer rows where it is small, blurred contacts where large."),
+        GN_PARAM(GnSssmParams, early_out, boolean, 0, 1, "",
+                 "Skips rows where the least and greatest depth of their region say that all of the light is seen, or none."),
+    });
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& lookup_sssm() {
+    static const Part part = [] {
+        Part p;
+        p.id = "sssm";
+        p.stage = Stage::lookup;
+        p.title = "Separable soft shadow mapping";
+        p.citation = "BGC16";
+        p.needs = {"depth", "min-max"};
+        p.params = rows();
+        p.params_type = "GnSssmParams";
+        p.glsl = "shadow/lookup/sssm/sssm.glsl";
+        p.add_lookup = add_sssm;
+        p.guard = guard;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

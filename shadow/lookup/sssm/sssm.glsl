@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Separable soft shadows: search and filter read one row of the kernel each in the map, and the other rows in the picture, where
+// neighbours have read them.
+// Based on: Buades, Gumbau, Chover. Separable Soft Shadow Mapping. The Visual Computer 2016. [BGC16]
+// Departs from it: rows are read in the map and not in the picture, and are those of the light's own axes; where neighbours are
+// of no use their rows are left out.
+#ifndef GN_SHADOW_LOOKUP_SSSM_GLSL
+#define GN_SHADOW_LOOKUP_SSSM_GLSL
+
+#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/lookup/sssm/sssm.h"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// Point i of n along an axis of the light, from -1 to 1, moved by up to half their distance.
+GN_FN float gn_sssm_point(int i, int n, float noise, int jitter) {
+    float within = jitter != 0 ? noise : 0.5f;
+    return 2.0f * (float(i) + within) / float(n) - 1.0f;
+}
+
+// What a point of an axis weighs: as much of the light as lies across it.
+GN_FN float gn_sssm_weight(bool square, float x) { return square ? 1.0f : sqrt(max(1.0f - x * x, 0.0f)); }
+
+// Where the receiver's plane is seen on the ray from the light to a point that lies `way_ws` beside the receiver: the place of the
+// neighbour whose row goes through that point of the kernel. w = 0 where the ray does not meet the plane.
+GN_FN vec4 gn_sssm_neighbour(GnLight light, vec3 p_ws, vec3 n_ws, vec3 way_ws) {
+    bool far = light.kind == uint(GN_LIGHT_DIRECTIONAL);
+    vec3 beside_ws = p_ws + way_ws;
+    vec3 ray_ws = far ? vec3(light.direction_ws) : beside_ws - vec3(light.position_ws);
+    float falls = dot(n_ws, ray_ws);
+    if (abs(falls) < 1.0e-3f * length(ray_ws)) {
+        return vec4(p_ws, 0.0f);
+    }
+    float along = -dot(n_ws, way_ws) / falls;
+    return vec4(beside_ws + along * ray_ws, far || along > -0.99f ? 1.0f : 0.0f);
+}
+
+// The spread of what lies `before` metres before the receiver, along the light's axis.
+GN_FN float gn_sssm_spread(GnLight light, vec3 p_ws, float before) {
+    if (light.kind == uint(GN_LIGHT_DIRECTIONAL)) {
+        return before;
+    }
+    float receiver = dot(gn_pcss_axis(light, p_ws), p_ws - vec3(light.position_ws));
+    float blocker = max(receiver - before, 0.0f);
+    float spread = gn_pcss_spread(false, receiver, blocker);
+    return light.kind == uint(GN_LIGHT_POINT) ? spread * gn_pcss_bulge(light.radius, blocker) : spread;
+}
+
+// Metres and spreads in [0,1], as rows hand them on; 1 where all of the light is hidden.
+GN_FN float gn_sssm_pack(float value) { return min(value / (1.0f + value), 0.9999f); }
+GN_FN float gn_sssm_unpack(float packed) { return packed / (1.0f - packed); }
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+// Where kernels cross views (shadow/receiver/map_access.glsl), taps beyond the receiver's are looked up in their own.
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
+// One of three passes: rows of the search, rows of the filter, or both at once over the whole grid.
+//   #define GN_SSSM_SEARCH
+//   #define GN_SSSM_FILTER
+//   #define GN_SSSM_GRID
+
+// Weights of what was read and of what of it hides the light, and the latter times how many metres it lies before the receiver.
+struct GnSssmSum {
+    float weight;
+    float hidden;
+    float before;
+};
+
+void gn_sssm_add(GnLookup at, sampler2DArray depth, vec3 axis, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
+    GnLookup tap = at;
+    vec2 uv_ts = tap_ts;
+#ifdef GN_CROSSING
+    if (!gn_within_view(at.projected, tap_ts, tap_ts)) {
+        tap = gn_at_tap(at, tap_ts);
+        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? tap_ts : tap.projected.uv_ts;
+    }
+#endif
+    vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
+    ivec2 texel = ivec2(floor(clamp(uv_ts, tap.projected.bounds_ts.xy, last_ts) / tap.projected.texel_ts));
+    float occluder = gn_map_texel(depth, tap, texel).r;
+    float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
+    sum.weight += weight;
+    if (plane > occluder) {
+        float distance = gn_pcss_seen(at, tap, axis, tap_ts, uv_ts, plane, occluder);
+        sum.hidden += weight;
+        sum.before += weight * max(receiver - distance, 0.0);
+    }
+}
+
+// The row y of the kernel that the light's points make through a plane at `spread`.
+void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, vec3 axis, float receiver, float spread, float y,
+                 GnSssmParams params, inout GnSssmSum sum) {
+    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, params.least * at.projected.texel_ts);
+    float noise = gn_gradient_noise(at.receiver.p_ss);
+    float weight = gn_sssm_weight(half_light.square, y);
+    for (int i = 0; i < params.side; ++i) {
+        float x = gn_sssm_point(i, params.side, noise, params.jitter);
+        vec2 q = vec2(x, y);
+        vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, spread) + q.x * widen.right_ts + q.y * widen.up_ts;
+        gn_sssm_add(at, depth, axis, receiver, tap_ts, weight * gn_sssm_weight(half_light.square, x), sum);
+    }
+}
+
+#ifdef GN_SSSM_SEARCH
+// The row through the receiver of the region where anything can hide the light: how much of it does, how many metres before the
+// receiver, and the region's spread, the last two packed.
+vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    if (region.visibility >= 0.0) {
+        float before = gn_sssm_pack(max(region.receiver - region.nearest, 0.0));
+        return region.visibility > 0.0 ? vec3(0.0) : vec3(1.0, before, 1.0);
+    }
+    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
+    gn_sssm_row(at, depth, half_light, axis, region.receiver, region.spread, 0.0, params, sum);
+    return vec3(sum.hidden / sum.weight, gn_sssm_pack(sum.before / max(sum.hidden, 1.0e-6)), gn_sssm_pack(region.spread));
+}
+#elif defined(GN_SSSM_FILTER)
+// The row through the receiver of a kernel as wide as the penumbra. `spreads`: the picture's, below 0 where nothing hides the
+// light, above 1e6 where all of it is hidden.
+float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray spreads, GnSssmParams params) {
+    float spread = texelFetch(spreads, ivec3(ivec2(at.receiver.p_ss), 0), 0).r;
+    if (spread < 0.0 || spread > 1.0e6) {
+        return spread < 0.0 ? 1.0 : 0.0;
+    }
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
+    gn_sssm_row(at, depth, half_light, gn_pcss_axis(at.light, at.receiver.p_ws), 1.0, spread, 0.0, params, sum);
+    return 1.0 - sum.hidden / sum.weight;
+}
+#elif defined(GN_SSSM_GRID)
+float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    if (region.visibility >= 0.0) {
+        return region.visibility;
+    }
+    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
+    for (int j = 0; j < params.side; ++j) {
+        gn_sssm_row(at, depth, half_light, axis, region.receiver, region.spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
+    }
+    if (sum.hidden <= 0.0) {
+        return 1.0;
+    }
+    float spread = gn_sssm_spread(at.light, at.receiver.p_ws, sum.before / sum.hidden);
+    sum = GnSssmSum(0.0, 0.0, 0.0);
+    for (int j = 0; j < params.side; ++j) {
+        gn_sssm_row(at, depth, half_light, axis, region.receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
+    }
+    return 1.0 - sum.hidden / sum.weight;
+}
+#endif
+#endif
+
+#endif
