@@ -85,6 +85,8 @@ TEST(Endings, AMapThatDoesNotFitNamesItsLightAndWhatFits) {
         {"render", "contact:light=point", "-r", "hard,resolution=16384", "--size", "96x64", "-o", folder / "out.png"});
     EXPECT_EQ(rendered.status, 1) << rendered.err;
     expect_has(rendered.err, {"light '", "16384", "resolution", "fits"});
+    EXPECT_EQ(rendered.err.find("light '"), rendered.err.rfind("light '"))
+        << "its light is named once: " << rendered.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 

@@ -133,5 +133,21 @@ TEST(Camera, AChosenRangeIsThatOfThePicturesOwnShape) {
     EXPECT_GT(near_plane(1), near_plane(16.0F / 9));
 }
 
+TEST(Camera, ARangeThatCannotBeIsChosenForAllThatIsSeen) {
+    const auto range = [](const char* lines) {
+        const TempFolder folder;
+        folder.write("a.obj", "v -5 0 5\nv 5 0 5\nv 5 0 -5\nv -5 0 -5\nf 1 2 3 4\n");
+        const Scene scene = load_scene(folder.write(
+            "s.toml",
+            fmt::format("[[file]]\npath = 'a.obj'\n[[camera]]\nposition = [0, 3, 6]\nlook_at = [0, 0, 0]\n{}", lines)));
+        EXPECT_EQ(has_note(scene, "had no usable depth range"), std::string_view(lines) != "") << lines;
+        return vec2(scene.cameras.at(0).near, scene.cameras.at(0).far);
+    };
+    const vec2 chosen = range("");
+    // The far plane before the near one, and a near plane behind everything: neither may cut the picture.
+    EXPECT_EQ(range("near = 100\nfar = 1\n"), chosen);
+    EXPECT_EQ(range("near = 100\n"), chosen);
+}
+
 }  // namespace
 }  // namespace gn

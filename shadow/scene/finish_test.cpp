@@ -138,6 +138,13 @@ TEST(Finish, TheOriginGoesToTheCameraWhereTheWorldIsWide) {
     EXPECT_EQ(dvec3(vec3(scene.lights[0].shape.position_ws)) + scene.origin, dvec3(40'000.5, 6, 7.5));
     EXPECT_FALSE(has_note(scene, "cannot be told"));
 
+    // A camera that stands nowhere takes no scene with it.
+    const Scene lost = load_scene(folder.write(
+        "lost.toml", "[[file]]\npath = 'world.obj'\n[[camera]]\nposition = [1e12, 0, 0]\nlook_at = [0, 0, 0]\n"));
+    EXPECT_EQ(lost.triangles.size(), scene.triangles.size());
+    EXPECT_EQ(lost.origin, dvec3(0));
+    EXPECT_TRUE(has_note(lost, "Camera 'main' had no usable position")) << lost.cameras[0].name;
+
     // The same made in memory.
     Scene made = cube(vec3(40'000, 1, 0), 1.0F);
     made.cameras.push_back({.position_ws = vec3(40'000, 1.75F, 4)});

@@ -213,5 +213,34 @@ TEST(GltfExtensions, SeveralScenesAndAnimationsAreSaid) {
     EXPECT_TRUE(has_note(load(gltf), "animation"));
 }
 
+TEST(GltfSkin, VerticesThatNoJointHoldsAreSaid) {
+    const auto skinned = [](std::uint8_t joint, float weight) {
+        GltfText gltf = one_triangle();
+        gltf.add(std::vector<std::uint8_t>{joint, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4", 5121, 3);
+        gltf.add(std::vector<float>{weight, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 5126, 3);
+        gltf.primitives = R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}})";
+        gltf.nodes = R"({"mesh":0,"skin":0},{"translation":[0,5,0]})";
+        gltf.scene = R"("scenes":[{"nodes":[0,1]}],)";
+        gltf.more = R"("skins":[{"joints":[1]}],)";
+        return load(gltf);
+    };
+    EXPECT_TRUE(skinned(0, 0.25F).notes.empty()) << "weights need not sum to one";
+    for (const Scene& scene : {skinned(7, 1), skinned(0, 0), skinned(0, std::nanf(""))}) {
+        EXPECT_TRUE(has_note(scene, "1 vertex of a skinned mesh hangs on no joint"));
+        EXPECT_EQ(corner(scene, 0, 0), vec3(0));
+        EXPECT_EQ(corner(scene, 0, 1), vec3(1, 5, 0));
+    }
+}
+
+TEST(GltfExtensions, WhatLetsLightThroughAndIsNotReadIsSaidToCast) {
+    GltfText gltf = one_triangle();
+    for (const char* name : {"KHR_materials_diffuse_transmission", "ADOBE_materials_thin_transparency"}) {
+        gltf.more = fmt::format(R"("extensionsUsed":["{}"],)", name);
+        const Scene scene = load(gltf);
+        EXPECT_TRUE(has_note(scene, "casts as if it were solid")) << name;
+        EXPECT_FALSE(has_note(scene, "only changes how surfaces look")) << name;
+    }
+}
+
 }  // namespace
 }  // namespace gn

@@ -158,5 +158,22 @@ TEST(GltfMaterial, ABrokenPictureCostsOnlyThePicture) {
     }
 }
 
+TEST(GltfMaterial, MirroredRepetitionTurnsEverySecondPicture) {
+    GltfText gltf = with_material(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", two_texels);
+    gltf.more.replace(gltf.more.find("33071"), 5, "33648");
+    const Scene scene = load(gltf);
+    ASSERT_EQ(scene.textures.size(), 1U);
+    // A period is the picture and its image: texels a, b, b, a over two units of u, and as before along v.
+    const Texture& texture = scene.textures[0];
+    EXPECT_TRUE(texture.repeat_u);
+    ASSERT_EQ(texture.image.width, 4);
+    EXPECT_EQ(texture.image.height, 1);
+    const auto alpha = [&](std::size_t x) { return texture.image.rgba[4 * x + 3]; };
+    EXPECT_EQ((std::array{alpha(0), alpha(1), alpha(2), alpha(3)}), (std::array<std::uint8_t, 4>{0, 255, 255, 0}));
+    EXPECT_EQ(scene.uvs[scene.triangles[0].y], vec2(0.5F, 0));
+    EXPECT_EQ(scene.uvs[scene.triangles[0].z], vec2(0, 1));
+    EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
+}
+
 }  // namespace
 }  // namespace gn

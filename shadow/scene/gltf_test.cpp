@@ -243,5 +243,11 @@ TEST(Gltf, SkinnedMeshesStandInTheirRestPose) {
     EXPECT_EQ(scene.positions_ws[scene.triangles[0].y], vec3(1, 2, 0));
 }
 
+TEST(Gltf, AFileOfAFewBytesIsCutOff) {
+    const TempFolder folder;
+    EXPECT_NE(error_of(folder.write("a.glb", "glT")).find("cut off"), std::string::npos);
+    EXPECT_NE(error_of(folder.write("b.glb", "")).find("empty"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gn

@@ -102,5 +102,28 @@ TEST(Mtl, ALostMaskIsSaid) {
     EXPECT_TRUE(has_note(with_material(folder, "map_d nowhere.png\n"), "'m' has lost its mask"));
 }
 
+TEST(Mtl, CoverageThatIsNoNumberOrOutOfRangeIsSaid) {
+    const TempFolder folder;
+    for (const char* lines : {"d nan\n", "d half\n", "d 2\n", "Tr -1\n", "d -halo\n"}) {
+        const Scene scene = with_material(folder, lines);
+        EXPECT_EQ(scene.materials.at(0).base_color.a, 1.0F) << lines;
+        EXPECT_TRUE(has_note(scene, "is no number from 0 to 1; its opacity counts as 1")) << lines;
+    }
+    EXPECT_TRUE(has_note(with_material(folder, "d -1\n"), "Material 'm': 'd -1' is no number"));
+    EXPECT_TRUE(with_material(folder, "d 1\n").notes.empty());
+}
+
+TEST(Mtl, AMaterialThatIsDefinedAgainIsSaid) {
+    const TempFolder folder;
+    const Scene scene = with_material(folder, "Kd 1 0 0\nnewmtl m\nKd 0 1 0\n");
+    EXPECT_EQ(vec3(scene.materials.at(0).base_color), vec3(1, 0, 0));
+    EXPECT_TRUE(has_note(scene, "Material 'm' is defined again; the first definition counts"));
+}
+
+TEST(Mtl, WhollyTransparentIsSaidOnce) {
+    const TempFolder folder;
+    EXPECT_EQ(with_material(folder, "d 0\n").notes.size(), 1U);
+}
+
 }  // namespace
 }  // namespace gn
