@@ -131,15 +131,20 @@ Seen look(const Scene& scene, const Camera& camera, float aspect) {
     return seen;
 }
 
+float farthest_of(const Box& bounds, const Camera& camera) {
+    float farthest = 0.0F;
+    for (const vec3 corner : bounds.corners()) {
+        farthest = std::max(farthest, glm::distance(corner, camera.position_ws));
+    }
+    return farthest;
+}
+
 // Depth range for everything in `bounds` as seen by the camera. What stands nearer than a near plane that suits the whole
 // would be cut off: then half the way to it serves, down to 2^-20 of the far plane; reversed depth in floats bears it.
 // An orthographic camera's depth is linear, and no near plane costs it any: there the least serves.
 void choose_range(Camera& camera, const Scene& scene, const Box& bounds, float aspect, bool near_given,
                   bool far_given) {
-    float farthest = 0.0F;
-    for (const vec3 corner : bounds.corners()) {
-        farthest = std::max(farthest, glm::distance(corner, camera.position_ws));
-    }
+    const float farthest = farthest_of(bounds, camera);
     const vec3 nearest = glm::clamp(camera.position_ws, bounds.min, bounds.max);
     const float distance = glm::distance(nearest, camera.position_ws);
     if (!far_given) {
@@ -219,12 +224,15 @@ void repair_camera(Camera& camera, const Scene& scene, const Box& bounds, float 
 
     // 0 < near < far.
     repair_lens(camera, notes);
+    // Zero means that the file left the choice to us; what else cannot be is a mistake, and so are both planes where the far
+    // one does not lie behind the near one, or nothing does.
     const bool near_given = std::isfinite(camera.near) && camera.near > 0.0F;
-    const bool far_given = std::isfinite(camera.far) && camera.far > (near_given ? camera.near : 0.0F);
-    if (!near_given || !far_given) {
-        // Zero means that the file left the choice to us; anything else was a mistake.
-        const bool mistake = (!near_given && camera.near != 0.0F) || (!far_given && camera.far != 0.0F);
-        choose_range(camera, scene, bounds, aspect, near_given, far_given);
+    const bool far_given = std::isfinite(camera.far) && camera.far > 0.0F;
+    const float farthest = far_given ? camera.far : farthest_of(bounds, camera);
+    const bool in_order = !near_given || camera.near < farthest;
+    if (!near_given || !far_given || !in_order) {
+        const bool mistake = !in_order || (!near_given && camera.near != 0.0F) || (!far_given && camera.far != 0.0F);
+        choose_range(camera, scene, bounds, aspect, near_given && in_order, far_given && in_order);
         camera.near = std::min(camera.near, 0.5F * camera.far);
         if (mistake) {
             add_note(notes, fmt::format("Camera '{}' had no usable depth range and sees from {:.4g} to {:.4g} m.",
