@@ -154,9 +154,11 @@ dvec3 choose_origin(const std::vector<TriangleSample>& samples, dvec3 min, dvec3
     }
     const dvec3 mass = distance > 16.0 * extent ? rounded(centre, extent) : dvec3(0.0);
 
-    // The camera, where what stands before it would lose its last ten bits: 2^-23 x 2^13 = 2^-10.
+    // The camera, where what stands before it would lose its last ten bits: 2^-23 x 2^13 = 2^-10. One that stands beyond
+    // the reach of coordinates sees nothing, and would take the scene out of theirs.
     const double feature = median_size(samples);
-    if (camera_ws == nullptr || !(glm::length(*camera_ws - mass) > 0x1p13 * feature) || !(feature > 0.0)) {
+    const double away = camera_ws == nullptr ? 0.0 : glm::length(*camera_ws - mass);
+    if (!(away > 0x1p13 * feature) || !(feature > 0.0) || away > 1e9) {
         return mass;
     }
     return rounded(*camera_ws, 8.0 * feature);
