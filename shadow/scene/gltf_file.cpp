@@ -123,8 +123,11 @@ File parse_file(const std::filesystem::path& path, const Assets& assets) {
     file.shown = clean_text(path.string());
     Reader reader{Folder(path, assets), &file};
     std::vector<std::byte> bytes = read_file(path);
-    if (bytes.size() < 4) {
+    if (bytes.empty()) {
         fail("{}: the file is empty; a glTF file was expected", file.shown);
+    }
+    if (bytes.size() < 4) {
+        fail("{}: the file is cut off", file.shown);
     }
     const bool binary = std::memcmp(bytes.data(), "glTF", 4) == 0;
     const std::string_view json = json_of(bytes, binary, file.shown);
