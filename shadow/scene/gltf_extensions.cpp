@@ -42,26 +42,16 @@ constexpr auto unseen = std::to_array<std::string_view>({"KHR_xmp",
                                                          "OMI_physics_shape"});
 
 // The surface is where it is without it, only shaded otherwise.
-constexpr auto looks = std::to_array<std::string_view>({"KHR_materials_anisotropy",
-                                                        "KHR_materials_clearcoat",
-                                                        "KHR_materials_diffuse_transmission",
-                                                        "KHR_materials_dispersion",
-                                                        "KHR_materials_ior",
-                                                        "KHR_materials_iridescence",
-                                                        "KHR_materials_sheen",
-                                                        "KHR_materials_specular",
-                                                        "KHR_materials_subsurface",
-                                                        "KHR_materials_unlit",
-                                                        "KHR_materials_variants",
-                                                        "KHR_materials_volume",
-                                                        "ADOBE_materials_thin_transparency",
-                                                        "AGI_articulations",
-                                                        "CESIUM_primitive_outline",
-                                                        "EXT_lights_image_based",
-                                                        "EXT_lights_ies",
-                                                        "EXT_texture_video",
-                                                        "NV_materials_mdl",
-                                                        "VRMC_materials_mtoon"});
+constexpr auto looks = std::to_array<std::string_view>(
+    {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_materials_ior",
+     "KHR_materials_iridescence", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_subsurface",
+     "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume", "AGI_articulations",
+     "CESIUM_primitive_outline", "EXT_lights_image_based", "EXT_lights_ies", "EXT_texture_video", "NV_materials_mdl",
+     "VRMC_materials_mtoon"});
+
+// The surface lets light through, in ways that are not read.
+constexpr auto translucent =
+    std::to_array<std::string_view>({"KHR_materials_diffuse_transmission", "ADOBE_materials_thin_transparency"});
 
 // Pictures in formats that are not read; a mask among them is lost, which the material says.
 constexpr auto pictures =
@@ -81,6 +71,7 @@ void note_group(File& file, const std::set<std::string>& names, const char* sent
 
 void note_extensions(File& file) {
     std::set<std::string> of_looks;
+    std::set<std::string> of_light;
     std::set<std::string> of_pictures;
     std::set<std::string> unknown;
     std::set<std::string> needed;
@@ -90,6 +81,8 @@ void note_extensions(File& file) {
         }
         if (among(looks, name)) {
             of_looks.insert(name);
+        } else if (among(translucent, name)) {
+            of_light.insert(name);
         } else if (among(pictures, name)) {
             of_pictures.insert(name);
         } else {
@@ -106,6 +99,8 @@ void note_extensions(File& file) {
         unknown.erase(name);
     }
     note_group(file, of_looks, "Left out, as it only changes how surfaces look");
+    note_group(file, of_light,
+               "Lets light through in a way that is not read, so that what wears it casts as if it were solid");
     note_group(file, of_pictures,
                "Pictures in formats that are not read; another picture or a plain colour stands for them");
     note_group(file, unknown, "Not understood, so that shapes or holes may be missing");
