@@ -145,11 +145,14 @@ std::optional<dmat4> rest_matrix(const std::vector<Influences>& sets, std::size_
     return total > 0.0 ? std::optional(sum * (1.0 / total)) : std::nullopt;
 }
 
-void pose_by_joints(const Source& source, const std::vector<std::uint32_t>& used, const Joints& matrices, Mesh& mesh) {
+void pose_by_joints(const Source& source, const std::vector<std::uint32_t>& used, const Joints& matrices, Mesh& mesh,
+                    std::vector<std::string>& notes) {
     const std::vector<Influences> sets = find_influences(source);
+    std::size_t loose = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
         const std::optional<dmat4> m = rest_matrix(sets, used[v], matrices);
         if (!m) {
+            ++loose;
             continue;
         }
         mesh.positions_os[v] = dvec3(*m * dvec4(mesh.positions_os[v], 1.0));
@@ -160,6 +163,9 @@ void pose_by_joints(const Source& source, const std::vector<std::uint32_t>& used
         const double length = glm::length(n);
         mesh.normals_os[v] = length > 0.0 && std::isfinite(length) ? vec3(n / length) : vec3(0.0F);
     }
+    note_count(notes, loose,
+               "1 vertex of a skinned mesh hangs on no joint that is there, and stays where the mesh has it.",
+               "{} vertices of a skinned mesh hang on no joint that is there, and stay where the mesh has them.");
 }
 
 // Colours of three components are opaque; they are linear, whatever they are stored as.
@@ -242,7 +248,7 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
     }
     morph(file, primitive, pose.weights, used, mesh);
     if (pose.joints != nullptr) {
-        pose_by_joints(source, used, *pose.joints, mesh);
+        pose_by_joints(source, used, *pose.joints, mesh, file.notes);
     }
     return mesh;
 }
