@@ -137,6 +137,9 @@ bool glows(const Scene& scene, const Object& object) {
 }
 
 void note_glass(Scene& scene, const Material& glass) {
+    if (is_wholly_transparent(glass)) {
+        return;  // said already
+    }
     add_note(
         scene.notes,
         fmt::format("Material '{}' lets light through ({}): what wears it casts no shadow, because shadows have no "

@@ -164,6 +164,11 @@ void recentre(Scene& scene) {
 
 }  // namespace
 
+bool is_wholly_transparent(const Material& material) {
+    return (material.alpha_mode == AlphaMode::mask && material.base_color.a < material.alpha_cutoff) ||
+           (material.alpha_mode == AlphaMode::blend && material.base_color.a <= 0.0F);
+}
+
 void note_transparent(Scene& scene) {
     std::vector<bool> worn(scene.materials.size(), false);
     for (const Object& object : scene.objects) {
@@ -171,9 +176,7 @@ void note_transparent(Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        const bool masked_out = material.alpha_mode == AlphaMode::mask && material.base_color.a < material.alpha_cutoff;
-        const bool blended_out = material.alpha_mode == AlphaMode::blend && material.base_color.a <= 0.0F;
-        if (worn[i] && (masked_out || blended_out)) {
+        if (worn[i] && is_wholly_transparent(material)) {
             add_note(scene.notes,
                      fmt::format("Material '{}' is wholly transparent: nothing of it casts a shadow.", material.name));
         }

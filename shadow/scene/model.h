@@ -66,6 +66,8 @@ void note_count(std::vector<std::string>& notes, std::size_t count, const char* 
 
 /// Says that a material's holes are filled because their picture is missing.
 void note_lost_mask(std::vector<std::string>& notes, const std::string& material);
+/// Whether nothing of a material is there, whatever its picture.
+bool is_wholly_transparent(const Material& material);
 /// Notes every material in use that lets all light through: such a surface is easily taken for a missing one.
 void note_transparent(Scene& scene);
 
