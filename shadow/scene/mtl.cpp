@@ -16,10 +16,12 @@ struct MaterialLibrary::Entry {
     Material material;
     std::string color_map, alpha_map;
     MapPlacement placed;
-    bool dissolve_given = false;      ///< by `d`, which goes before `Tr` wherever it stands
-    std::vector<std::string> unread;  ///< statements that change what casts
+    bool dissolve_given = false;       ///< by `d`, which goes before `Tr` wherever it stands
+    std::vector<std::string> unread;   ///< statements that change what casts
+    std::vector<std::string> misread;  ///< sentences about coverage that is no number or out of range
 
     void take(std::string_view word, std::string_view line);
+    void take_opacity(std::string_view word, std::string_view line);
 };
 
 namespace {
@@ -144,13 +146,8 @@ void MaterialLibrary::Entry::take(std::string_view word, std::string_view line) 
         m.base_color = vec4(color(line, 1.0F), m.base_color.w);
     } else if (key == "ke") {
         m.emissive = color(line, 1e9F);
-    } else if (key == "d") {
-        std::string_view rest = line;
-        line = take_word(rest) == "-halo" ? rest : line;
-        m.base_color.w = number_or(line, 1.0F, 0.0F, 1.0F);
-        dissolve_given = true;
-    } else if (key == "tr" && !dissolve_given) {
-        m.base_color.w = 1.0F - number_or(line, 0.0F, 0.0F, 1.0F);
+    } else if (key == "d" || (key == "tr" && !dissolve_given)) {
+        take_opacity(word, line);
     } else if (key == "ns") {
         // The width of a Phong lobe as GGX roughness: alpha^2 = 2 / (Ns + 2), alpha = roughness^2.
         m.roughness = std::pow(2.0F / (number_or(line, 10.0F, 0.0F, 1e5F) + 2.0F), 0.25F);
@@ -167,9 +164,33 @@ void MaterialLibrary::Entry::take(std::string_view word, std::string_view line) 
     }
 }
 
+void MaterialLibrary::Entry::take_opacity(std::string_view word, std::string_view line) {
+    const std::string statement = clean_text(fmt::format("{} {}", word, trimmed(line)));
+    const bool dissolve = lower(word) == "d";
+    std::string_view rest = line;
+    line = dissolve && take_word(rest) == "-halo" ? rest : line;
+    std::string_view number = line;
+    const std::optional<double> value = leading_number(take_word(number));
+    const float taken = number_or(line, dissolve ? 1.0F : 0.0F, 0.0F, 1.0F);
+    material.base_color.w = dissolve ? taken : 1.0F - taken;
+    dissolve_given = dissolve_given || dissolve;
+    if (!value || *value != std::clamp(*value, 0.0, 1.0)) {
+        misread.push_back(fmt::format("'{}' is no number from 0 to 1; its opacity counts as {:.3g}", statement,
+                                      material.base_color.w));
+    }
+}
+
 void MaterialLibrary::finish(const Entry& entry) {
-    if (entry.name.empty() || materials_.count(entry.name) > 0) {
+    if (entry.name.empty()) {
         return;
+    }
+    if (materials_.count(entry.name) > 0) {
+        add_note(model_.notes,
+                 fmt::format("Material '{}' is defined again; the first definition counts.", entry.material.name));
+        return;
+    }
+    for (const std::string& sentence : entry.misread) {
+        add_note(model_.notes, fmt::format("Material '{}': {}.", entry.material.name, sentence));
     }
     Material material = entry.material;
     material.base_color_texture = load_texture(entry);
