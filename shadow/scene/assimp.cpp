@@ -144,9 +144,13 @@ std::optional<Image8> load_picture(const aiMaterial& material, aiTextureType typ
     }
 }
 
-bool repeats(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+bool repeats(std::vector<std::string>& notes, const aiMaterial& material, const char* key, unsigned type,
+             unsigned index) {
     int mode = aiTextureMapMode_Wrap;
     material.Get(key, type, index, mode);
+    if (mode == aiTextureMapMode_Mirror) {
+        add_note(notes, "Mirrored repetition of a texture is shown as plain repetition.");
+    }
     return mode == aiTextureMapMode_Wrap || mode == aiTextureMapMode_Mirror;
 }
 
@@ -175,9 +179,10 @@ void load_pictures(const aiMaterial& data, const Source& source, Material& mater
         material.alpha_mode = AlphaMode::mask;
     }
     material.base_color_texture = static_cast<int>(source.model.textures.size());
-    source.model.textures.push_back({color_name.empty() ? mask_name : color_name, std::move(*image),
-                                     repeats(data, AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0)),
-                                     repeats(data, AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0))});
+    source.model.textures.push_back(
+        {color_name.empty() ? mask_name : color_name, std::move(*image),
+         repeats(source.model.notes, data, AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0)),
+         repeats(source.model.notes, data, AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0))});
 }
 
 Material convert_material(const aiMaterial& data, const Source& source) {

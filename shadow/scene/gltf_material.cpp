@@ -140,7 +140,11 @@ std::vector<UvUse> load_materials(File& file, Model& model) {
     std::vector<UvUse> uses;
     for (const tinygltf::Material& data : file.data.materials) {
         model.materials.push_back(read_material(file, data, pictures));
-        uses.push_back(read_uv_use(color_texture(data)));
+        const tinygltf::TextureInfo color = color_texture(data);
+        uses.push_back(read_uv_use(color));
+        const dvec2 share = pictures.share_of_period(color.index);
+        // After the file's own transform: repetition begins where its coordinates are whole.
+        uses.back().uv_from_file = glm::dmat3(glm::dmat2(share.x, 0, 0, share.y)) * uses.back().uv_from_file;
     }
     model.materials.push_back({.name = "default"});
     uses.emplace_back();

@@ -28,6 +28,24 @@ std::string decoded_uri(std::string_view uri) {
     return name;
 }
 
+// The picture, then its mirror image to the right of it, below it, or both.
+Image8 with_mirror_images(Image8 image, bool along_u, bool along_v) {
+    if (!along_u && !along_v) {
+        return image;
+    }
+    const int width = image.width, height = image.height;
+    Image8 whole{along_u ? 2 * width : width, along_v ? 2 * height : height, {}};
+    whole.rgba.reserve(4 * static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
+    for (int y = 0; y < whole.height; ++y) {
+        for (int x = 0; x < whole.width; ++x) {
+            const int from_x = x < width ? x : 2 * width - 1 - x, from_y = y < height ? y : 2 * height - 1 - y;
+            const auto texel = image.rgba.begin() + 4 * (std::ptrdiff_t{from_y} * width + from_x);
+            whole.rgba.insert(whole.rgba.end(), texel, texel + 4);
+        }
+    }
+    return whole;
+}
+
 }  // namespace
 
 bool Pictures::exists(int image) const {
@@ -76,6 +94,19 @@ int Pictures::texture(int texture_index) {
     return -1;
 }
 
+dvec2 Pictures::share_of_period(int texture_index) const {
+    if (texture_index < 0 || static_cast<std::size_t>(texture_index) >= file_.data.textures.size()) {
+        return dvec2(1.0);
+    }
+    const int index = file_.data.textures[static_cast<std::size_t>(texture_index)].sampler;
+    if (index < 0 || static_cast<std::size_t>(index) >= file_.data.samplers.size()) {
+        return dvec2(1.0);
+    }
+    const tinygltf::Sampler& sampler = file_.data.samplers[static_cast<std::size_t>(index)];
+    return {sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? 0.5 : 1.0,
+            sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? 0.5 : 1.0};
+}
+
 int Pictures::texture(int texture_index, int image_index) {
     // How it is repeated.
     const tinygltf::Texture& texture = file_.data.textures[static_cast<std::size_t>(texture_index)];
@@ -85,21 +116,22 @@ int Pictures::texture(int texture_index, int image_index) {
         const tinygltf::Sampler& sampler = file_.data.samplers[static_cast<std::size_t>(texture.sampler)];
         repeat_u = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
         repeat_v = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
-            sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) {
-            add_note(file_.notes, "Mirrored repetition of a texture is shown as plain repetition.");
-        }
     }
+    const dvec2 share = share_of_period(texture_index);
+    const bool mirrored_u = share.x < 1.0, mirrored_v = share.y < 1.0;
 
-    const std::array key{image_index, repeat_u ? 1 : 0, repeat_v ? 1 : 0};
+    const std::array key{image_index, int(repeat_u), int(repeat_v), int(mirrored_u), int(mirrored_v)};
     const auto known = textures_.find(key);
     if (known != textures_.end()) {
         return known->second;
     }
     int index = -1;
     if (std::optional<Image8> image = decode(image_index)) {
+        const std::size_t image_pixels = image->rgba.size() / 4;
         index = static_cast<int>(model_.textures.size());
-        model_.textures.push_back({shown_name(image_index), std::move(*image), repeat_u, repeat_v});
+        model_.textures.push_back({shown_name(image_index),
+                                   with_mirror_images(std::move(*image), mirrored_u, mirrored_v), repeat_u, repeat_v});
+        pixels_ += model_.textures.back().image.rgba.size() / 4 - image_pixels;
     }
     textures_[key] = index;
     return index;

@@ -11,8 +11,11 @@ class Pictures {
   public:
     Pictures(File& file, Model& model) : file_(file), model_(model) {}
 
-    /// Index into model.textures, or -1.
+    /// Index into model.textures, or -1. Where a texture is repeated in mirror images, the picture and its image side by side
+    /// are one period of plain repetition: coordinates take share_of_period() of it.
     int texture(int texture_index);
+    /// One, or a half along each axis in which the texture is mirrored.
+    [[nodiscard]] dvec2 share_of_period(int texture_index) const;
     /// Mean green and blue of a picture, (1, 1) without one.
     vec2 mean_green_blue(int texture_index);
 
@@ -27,7 +30,7 @@ class Pictures {
 
     File& file_;
     Model& model_;
-    std::map<std::array<int, 3>, int> textures_;
+    std::map<std::array<int, 5>, int> textures_;
     std::map<int, vec2> means_;
     std::map<int, bool> broken_;
     std::vector<std::string> failures_;  ///< not said yet
