@@ -81,14 +81,16 @@ std::vector<std::string> grouped_reasons(std::span<const LightReason> lights, st
     std::vector<Group> groups;
     std::vector<std::string> sentences;
     for (const auto& [name, reason] : lights) {
-        std::string kind = reason;
+        const std::string opening = "light '" + name + "': ";
+        const std::string sentence = reason.starts_with(opening) ? reason.substr(opening.size()) : reason;
+        std::string kind = sentence;
         if (const std::size_t at = kind.find("'" + name + "'"); at != std::string::npos) {
             kind.replace(at, name.size() + 2, "''");
         }
         Group& group = group_of(groups, kind);
         sentences.resize(groups.size());
         if (group.members.empty()) {
-            sentences.back() = reason;
+            sentences.back() = sentence;
         }
         group.members.push_back(name);
     }

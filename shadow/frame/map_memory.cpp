@@ -27,11 +27,10 @@ void check_map_memory(const FrameInput& input, const Recipe& recipe, TextureHand
         fits /= 2;
     }
     refuse(
-        "light '{}': with resolution = {} its map of {} x {} texels in {} layers takes {} MiB, and device '{}' gives "
-        "{} "
-        "MiB at once and {} texels a side; resolution = {} fits",
-        input.light().name, recipe.resolution, desc.width, desc.height, desc.layers, bytes >> 20U,
-        input.device.info().name, most_bytes >> 20U, most_side, fits);
+        "light '{}': with resolution = {} its map of {} x {} texels in {} layer{} takes {} MiB, and device '{}' "
+        "gives {} MiB at once and {} texels a side; resolution = {} fits",
+        input.light().name, recipe.resolution, desc.width, desc.height, desc.layers, desc.layers == 1 ? "" : "s",
+        bytes >> 20U, input.device.info().name, most_bytes >> 20U, most_side, fits);
 }
 
 std::string with_less_memory(const std::string& problem, const Recipe& recipe) {
