@@ -129,6 +129,27 @@ TEST(Paths, LinksAndDetoursLeadNowhereElse) {
     }
 }
 
+TEST(Paths, APlusInANameIsAPlus) {
+    const TempFolder folder;
+    folder.write("two+two.bin", bytes_of(triangle));
+    folder.write("two two.bin", bytes_of(triangle));
+    for (const char* uri : {"two+two.bin", "two%2Btwo.bin", "two%20two.bin", "two two.bin"}) {
+        GltfText gltf;
+        gltf.add_points(triangle);
+        gltf.buffer.clear();
+        gltf.more = fmt::format(R"("buffers":[{{"uri" : "{}","byteLength":36}}],)", uri);
+        const Scene scene = load_scene(folder.write("a.gltf", gltf.text()));
+        EXPECT_EQ(scene.triangles.size(), 1U) << uri;
+        EXPECT_TRUE(scene.notes.empty()) << uri << ": " << notes_of(scene);
+    }
+    std::filesystem::remove(folder.path() / "two two.bin");
+    GltfText gltf;
+    gltf.add_points(triangle);
+    gltf.buffer.clear();
+    gltf.more = R"("buffers":[{"byteLength":36,"uri":"two+two.bin"}],)";
+    EXPECT_EQ(error_of(folder.write("a.gltf", gltf.text())), "");
+}
+
 TEST(Paths, GltfBuffersAndPicturesFollowTheSameRules) {
     const TempFolder folder;
     folder.write("data/Points.bin", bytes_of(triangle));
