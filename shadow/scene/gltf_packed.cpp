@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files whose data is compressed: what the parser behind must be told so that it reads them at all.
+// What the parser behind must be told so that it reads files at all whose data is compressed, or whose names hold a plus.
 #include "shadow/scene/gltf_packed.h"
 
 #include <nlohmann/json.hpp>
@@ -65,13 +65,45 @@ void drop_indices(Json& document) {
     }
 }
 
+// Whether a file may be named with a plus; data within the JSON is full of them.
+bool may_name_plus(std::string_view json) {
+    constexpr std::string_view key = "\"uri\"";
+    for (std::size_t at = json.find(key); at != std::string_view::npos; at = json.find(key, at + 1)) {
+        const std::size_t begin = json.find('"', at + key.size());
+        const std::string_view value =
+            begin == std::string_view::npos ? "" : json.substr(begin + 1, json.find('"', begin + 1) - begin - 1);
+        if (!value.starts_with("data:") && value.find('+') != std::string_view::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The parser takes a plus for a blank, as forms of web pages do. In a name it is a plus. [RFC 3986, 2.2 and 3.3]
+void escape_plus(Json& document, const char* list) {
+    Json* all = member(document, list);
+    for (std::size_t i = 0; all != nullptr && all->is_array() && i < all->size(); ++i) {
+        Json* uri = member((*all)[i], "uri");
+        if (uri == nullptr || !uri->is_string() || uri->get_ref<std::string&>().starts_with("data:")) {
+            continue;
+        }
+        auto& name = uri->get_ref<std::string&>();
+        for (std::size_t at = name.find('+'); at != std::string::npos; at = name.find('+', at)) {
+            name.replace(at, 1, "%2B");
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<std::string> readable_json(std::string_view json) {
-    if (json.find("meshopt_compression") == std::string_view::npos && json.find(draco_name) == std::string_view::npos) {
+    if (json.find("meshopt_compression") == std::string_view::npos && json.find(draco_name) == std::string_view::npos &&
+        !may_name_plus(json)) {
         return std::nullopt;
     }
     Json document = Json::parse(json.begin(), json.end());
+    escape_plus(document, "buffers");
+    escape_plus(document, "images");
     give_bytes(document);
     drop_indices(document);
     return document.dump();

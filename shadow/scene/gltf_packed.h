@@ -15,7 +15,7 @@ inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 /// Most bytes that one file may unpack to; more is an Error.
 inline constexpr std::size_t max_unpacked_bytes = 2 * max_file_bytes;
 
-/// The JSON as the parser accepts it, where compression makes that another; check_json has passed it.
+/// The JSON as the parser reads it rightly, where compression or names make that another; check_json has passed it.
 std::optional<std::string> readable_json(std::string_view json);
 
 /// Unpacks every buffer view that is compressed into file.unpacked_views. Throws Error.
