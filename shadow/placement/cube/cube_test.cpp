@@ -55,6 +55,26 @@ TEST(Cube, NoSeamBetweenFaces) {
     EXPECT_LE(*c.errors.mismatch, few + *fitted.errors.mismatch);
 }
 
+TEST(Cube, ALightFarOffSaysHowFewTexelsAreLeft) {
+    const auto remarks_of = [](float distance, const char* recipe) {
+        Scene scene = load_scene("contact:light=point");
+        scene.lights[0].name = "star";
+        scene.lights[0].shape.position_ws = vec4(glm::normalize(vec3(1, 2, 1)) * distance, 1);
+        SceneGpu gpu = upload_scene(test::device(), scene);
+        return render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),
+                            {.width = 32, .height = 32, .repeat = 0, .picture = false})
+            .remarks;
+    };
+    // The placement is the automatic one, and the scene a dozen metres large: at 10 km half a texel is left of 1024.
+    EXPECT_TRUE(remarks_of(10, "hard").empty());
+    const auto remarks = remarks_of(1e4F, "hard");
+    ASSERT_EQ(remarks.size(), 1U);
+    for (const char* part : {"'cube'", "'star'", "1024", "placement=fit"}) {
+        EXPECT_NE(remarks[0].find(part), std::string::npos) << remarks[0];
+    }
+    EXPECT_TRUE(remarks_of(1e4F, "hard,placement=fit").empty());
+}
+
 constexpr const char* equal = "pcf,pcf.size=5,placement=cube,resolution=512";
 constexpr const char* by_coverage = "pcf,pcf.size=5,placement=cube,cube.resolution=coverage,resolution=512";
 
