@@ -32,8 +32,8 @@ std::string empty_reason(const Reach& reach, const std::string& light, const std
     }
     return reach.counted > 0 ? ""
                              : fmt::format(
-                                   "light '{}' reaches no sample of view '{}': all that it sees faces away from "
-                                   "the light, or lies outside its range or cone",
+                                   "light '{}' reaches no sample of view '{}': all that it sees faces away from the "
+                                   "light, meets it at less than 0.06 degrees, or lies outside its range or cone",
                                    light, view);
 }
 

@@ -90,7 +90,17 @@ std::vector<std::string> remarks_of(const Recipe& recipe, const Scene& scene) {
     if (std::string remark = placement_remark(recipe, scene); !remark.empty()) {
         remarks.push_back(std::move(remark));
     }
-    for (const Part* part : recipe.parts()) {
+    // What the recipe names, and what stands in for a placement that it does not name.
+    std::vector<const Part*> parts = recipe.parts();
+    for (const Light& light : scene.lights) {
+        const Part* const placement = recipe.map != nullptr && light.shape.kind != GN_LIGHT_ENVIRONMENT
+                                          ? &recipe.placement_for(light.shape)
+                                          : nullptr;
+        if (placement != nullptr && std::find(parts.begin(), parts.end(), placement) == parts.end()) {
+            parts.push_back(placement);
+        }
+    }
+    for (const Part* part : parts) {
         const std::string remark = part->remark != nullptr ? part->remark(scene, recipe) : "";
         if (!remark.empty()) {
             remarks.push_back(remark);

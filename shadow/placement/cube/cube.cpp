@@ -10,6 +10,7 @@
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
+#include "shadow/scene/clusters.h"
 
 #include <algorithm>
 #include <numeric>
@@ -162,6 +163,30 @@ LightViews place_cube(const FrameInput& input, const Recipe& recipe) {
     return views;
 }
 
+/// A cube looks everywhere: of a light far off say how little of it is spent on the scene.
+std::string remark_cube(const Scene& scene, const Recipe& recipe) {
+    constexpr double few = 16;
+    const Box most = largest_cluster(scene);
+    for (const Light& light : scene.lights) {
+        if (light.shape.kind == GN_LIGHT_DIRECTIONAL || light.shape.kind == GN_LIGHT_ENVIRONMENT ||
+            recipe.placement_for(light.shape).place != &place_cube) {
+            continue;
+        }
+        const vec3 light_ws(light.shape.position_ws);
+        const double away = glm::distance(light_ws, glm::clamp(light_ws, most.min, most.max));
+        // A face is twice as wide as it is far.
+        const double across = 0.5 * recipe.resolution * static_cast<double>(most.diagonal()) / away;
+        if (across < few) {
+            return fmt::format(
+                "placement 'cube' looks around light '{}' from {:.3g} m off: {:.2g} of its {} texels a side hold all "
+                "it "
+                "shines on; placement=fit looks there alone",
+                light.name, away, across, recipe.resolution);
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 namespace parts {
@@ -190,6 +215,7 @@ const Part& placement_cube() {
         p.params_type = "GnCubeParams";
         p.glsl = "shadow/placement/cube/cube.glsl";
         p.place = place_cube;
+        p.remark = remark_cube;
         return p;
     }();
     return part;
