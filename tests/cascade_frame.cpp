@@ -17,7 +17,7 @@ GnLight sun(vec3 direction_ws) {
 }
 
 Scene with_hard_sun(const char* name) {
-    Scene scene = load_scene(name);
+    Scene scene = built_in(name);
     scene.lights[0].shape.angular_radius = 0;
     return scene;
 }

@@ -91,7 +91,7 @@ Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::s
 }
 
 TEST(FlickerRendered, AStillCameraHasNone) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     const std::vector<Camera> still(3, scene.camera(""));
     for (const char* recipe : {"pcf,placement=cascades,resolution=256", "pcf,placement=fit,resolution=256"}) {
         EXPECT_EQ(walk(scene, still, recipe).flicker, 0.0) << recipe;
@@ -115,7 +115,7 @@ TEST(FlickerRendered, SnappedCascadesFlickerATenthOfThoseThatAreNot) {
 /// What is left between all pairs is the scene's, not the map's: far down the corridor a pixel is many texels wide. One map
 /// that never changes, coarser though it is, has more than half as much, and a technique without texels has none.
 TEST(FlickerRendered, MostOfWhatRemainsIsThatOfAMapThatNeverChanges) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     const std::vector<Camera>& path = scene.paths.at(0).frames;
     const double snapped = walk(scene, path, "pcf,placement=cascades", Pairs::all).flicker;
     EXPECT_GT(walk(scene, path, "pcf,placement=single", Pairs::all).flicker, 0.5 * snapped);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/rig.h"
 
+#include <map>
+
 namespace gn::test {
 
 Device& device() {
@@ -12,6 +14,12 @@ ValidationGuard::~ValidationGuard() {
     for (std::size_t i = before; i < device().messages().size(); ++i) {
         ADD_FAILURE() << "validation: " << device().messages()[i];
     }
+}
+
+const Scene& built_in(const std::string& name) {
+    static std::map<std::string, Scene> made;
+    const auto found = made.find(name);
+    return found != made.end() ? found->second : made.emplace(name, load_scene(name)).first->second;
 }
 
 Comparison::Comparison(Scene given) : scene(std::move(given)) {}
@@ -35,7 +43,7 @@ Comparison compare(Scene scene, const std::string& recipe, const ComparisonOptio
 }
 
 Comparison compare(const std::string& scene, const std::string& recipe, const ComparisonOptions& options) {
-    return compare(load_scene(scene), recipe, options);
+    return compare(scene.find('/') == std::string::npos ? built_in(scene) : load_scene(scene), recipe, options);
 }
 
 }  // namespace gn::test

@@ -22,6 +22,9 @@ struct ValidationGuard {
     ~ValidationGuard();
 };
 
+/// A scene that is no file, `courtyard` or `slab:light=point`: made once a suite, which takes a second where sanitizers watch.
+const Scene& built_in(const std::string& name);
+
 /// One frame of a scene, first light unless told, and its truth.
 struct Comparison {
     Scene scene;
@@ -41,6 +44,7 @@ struct ComparisonOptions {
 };
 
 Comparison compare(Scene scene, const std::string& recipe, const ComparisonOptions& options = {});
+/// Of a built-in scene, or of a file by its path.
 Comparison compare(const std::string& scene, const std::string& recipe, const ComparisonOptions& options = {});
 
 }  // namespace gn::test

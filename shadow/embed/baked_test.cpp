@@ -80,7 +80,7 @@ TEST(EmbedBaked, BakedShadersGiveTheSameVisibility) {
     const std::vector<std::string> recipes{"pcf,placement=cascades", "vsm", "pcf-poisson,placement=lispsm"};
     bake(folder.path, recipes);
     for (const std::string& recipe : recipes) {
-        test::LentRenderer renderer(load_scene("courtyard"), 96, 54);
+        test::LentRenderer renderer(test::built_in("courtyard"), 96, 54);
         Result<Shadows> baked = make(recipe, folder.path), compiled = make(recipe, {});
         ASSERT_TRUE(baked.ok()) << baked.why();
         ASSERT_TRUE(compiled.ok()) << compiled.why();

@@ -128,7 +128,7 @@ std::string record(GnomonShadows* shadows, const GnomonFrame& frame, const char*
 TEST(GnomonC, GivesTheImagesOfTheBoundary) {
     const test::ValidationGuard guard;
     const char* recipe = "pcf,placement=cascades";
-    test::LentRenderer renderer(load_scene("courtyard"), 160, 90);
+    test::LentRenderer renderer(test::built_in("courtyard"), 160, 90);
     const Frame frame = renderer.frame();
     const test::LentDevice lent;
     Result<Shadows> direct = Shadows::create({.device = lent.adopted(), .recipe = recipe});
@@ -171,7 +171,7 @@ void draw(void* user, const GnomonCasterView* view) {
 TEST(GnomonC, DrawsOfARenderersOwnGiveTheSame) {
     const test::ValidationGuard guard;
     const char* recipe = "hard,resolution=256,placement=cascades,cascades.scroll=1";
-    test::LentRenderer renderer(load_scene("courtyard"), 96, 54);
+    test::LentRenderer renderer(test::built_in("courtyard"), 96, 54);
     const auto by_buffers = create(recipe), by_draws = create(recipe);
     ASSERT_TRUE(by_buffers != nullptr && by_draws != nullptr);
     EXPECT_EQ(record(by_buffers.get(), FrameInC(renderer.frame()).frame, nullptr), "");

@@ -18,7 +18,7 @@ constexpr uint width = 64, height = 48;
 /// A device on which nothing is compiled yet, and a renderer of one scene on it.
 struct Renderer {
     std::unique_ptr<Device> device = Device::create({.validation = test::device().validates()});
-    Scene scene = load_scene("courtyard");
+    Scene scene = test::built_in("courtyard");
     SceneGpu gpu = upload_scene(*device, scene);
     Frames frames{*device, 2};
     std::uint32_t frame = 0;

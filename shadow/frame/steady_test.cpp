@@ -85,7 +85,7 @@ class Steady : public testing::TestWithParam<std::string> {};
 
 TEST_P(Steady, FramesCreateNothing) {
     const test::ValidationGuard guard;
-    const Scene scene = load_scene("courtyard");
+    const Scene& scene = test::built_in("courtyard");
     Renderer renderer{scene};
     const PreparedRecipe recipe(test::device(), load_recipe(small_maps(GetParam())));
     for (int i = 0; i < warm; ++i) {

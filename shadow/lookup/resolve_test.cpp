@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The resolve pass clamps V; where the device validates, it first says what it clamps.
 #include "tests/lookup_by_hand.h"
+#include "tests/rig.h"
 
 namespace gn {
 namespace {
@@ -86,7 +87,7 @@ std::vector<float> cascades_of(const std::string& transition) {
     }();
     Recipe recipe = load_recipe("hard,resolution=64,placement=cascades,cascades.width=0.5," + transition);
     recipe.lookup = &layer;
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     return render_frame(test::device(), gpu, scene.camera(""), recipe,
                         {.width = 64, .height = 64, .only_light = 0, .picture = false})

@@ -56,18 +56,18 @@ Exceedance exceedance(const test::Comparison& low, const test::Comparison& high,
 
 TEST(BoundsRendered, NoMapIsDarkerThanPercentageCloserFilteringAtAnySample) {
     const test::ComparisonOptions once{.samples = 1};
-    for (const std::string scene : {"courtyard", "stack", "fence"}) {
-        for (const std::string placement : {"fit", "cascades"}) {
-            const std::string rest = receiver + placement;
-            const auto pcf = test::compare(scene, "pcf,pcf.size=5" + rest, once);
-            const auto unbiased = test::compare(scene, "pcf,pcf.size=5" + rest + no_bias, once);
-            for (const auto& [name, recipe] : bounds()) {
-                const bool warped = name.starts_with('e');
-                const auto map = test::compare(scene, recipe + fetch + rest + (warped ? no_bias : ""), once);
-                const Exceedance e = exceedance(warped ? unbiased : pcf, map, rounding());
-                EXPECT_GT(e.samples, 1000U);
-                EXPECT_EQ(e.beyond, 0U) << name << " on " << scene << " in " << placement << ", worst " << e.worst;
-            }
+    const std::pair<std::string, std::string> placed[] = {
+        {"courtyard", "cascades"}, {"stack", "fit"}, {"fence", "fit"}};
+    for (const auto& [scene, placement] : placed) {
+        const std::string rest = receiver + placement;
+        const auto pcf = test::compare(scene, "pcf,pcf.size=5" + rest, once);
+        const auto unbiased = test::compare(scene, "pcf,pcf.size=5" + rest + no_bias, once);
+        for (const auto& [name, recipe] : bounds()) {
+            const bool warped = name.starts_with('e');
+            const auto map = test::compare(scene, recipe + fetch + rest + (warped ? no_bias : ""), once);
+            const Exceedance e = exceedance(warped ? unbiased : pcf, map, rounding());
+            EXPECT_GT(e.samples, 1000U);
+            EXPECT_EQ(e.beyond, 0U) << name << " on " << scene << " in " << placement << ", worst " << e.worst;
         }
     }
 }

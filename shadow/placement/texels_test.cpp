@@ -4,6 +4,7 @@
 //     build/part_tests --gtest_filter=TexelsAlongTheView.* prints the tables, and writes the curves to the file that the
 //     environment variable GNOMON_CURVES names: docs/curves/texels.json, which tools/draw_curves draws.
 #include "shadow/placement/cascades/cascades.glsl"
+#include "tests/rig.h"
 #include "tests/warp_scene.h"
 
 #include <fmt/core.h>
@@ -53,7 +54,7 @@ Errors2 pixels_per_texel(const Scene& scene, const LightViews& views, double dis
 
 /// The corridor lit from straight above, or along the view from behind.
 Scene lit_corridor(bool overhead) {
-    Scene scene = load_scene("corridor");
+    Scene scene = test::built_in("corridor");
     scene.lights[0].shape.direction_ws = overhead ? vec4(0, -1, 0, 0) : vec4(scene.cameras[0].forward_ws, 0);
     return scene;
 }

@@ -210,7 +210,7 @@ TEST(Show, BiasIsTheDistanceThatTheRecipeAsksFor) {
 }
 
 TEST(Show, ViewIsTheCascadeByTheSplits) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     const std::string recipe =
         "pcf,placement=cascades,resolution=256,cascades.count=4,cascades.split=uniform,cascades.distance=100,"
         "cascades.transition=none,cascades.select=distance,cascades.fit=stable";
@@ -259,7 +259,7 @@ std::size_t colors_of(const Image& picture) {
 }
 
 TEST(Show, LayersShowWhatTheMapHolds) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     for (const char* recipe : {"pcf,placement=cascades", "vsm,placement=cascades"}) {
         const std::vector<Shown> shown = show(scene, std::string(recipe) + ",resolution=128", {"map", "light-view"});
         for (const Shown& picture : shown) {

@@ -292,7 +292,7 @@ TEST(BackprojectionRendered, OverlapsAreRightByPointsAndWrongByAreasAsPredicted)
         const auto c = test::compare(
             "overlap",
             fmt::format("backprojection,resolution=192,backprojection.layers=2,backprojection.{}", fusion.settings),
-            {.width = 64, .height = 48, .samples = 1});
+            {.width = 40, .height = 30, .samples = 1});
         const GnLight& light = c.scene.lights.front().shape;
         double sum = 0;
         double count = 0;
@@ -318,8 +318,8 @@ TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
         const auto values = [&](const char* settings) {
             return test::compare(
                        scene,
-                       fmt::format("backprojection,resolution=64,backprojection.budget=0,backprojection.{}", settings),
-                       {.width = 40, .height = 30, .samples = 1})
+                       fmt::format("backprojection,resolution=48,backprojection.budget=0,backprojection.{}", settings),
+                       {.width = 24, .height = 18, .samples = 1})
                 .visibility()
                 .values;
         };

@@ -146,7 +146,7 @@ TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
 
 /// What lies behind the edge of a cube's face is as far away as it is, in whatever face it is seen.
 TEST(PcssRendered, DistancesAreTheSameBeyondAnEdgeOfACube) {
-    Scene scene = load_scene("courtyard");
+    Scene scene = test::built_in("courtyard");
     std::swap(scene.lights.at(0), scene.lights.at(1));
     const test::ComparisonOptions size{.width = 64, .height = 48, .samples = 4};
     const auto crossing = test::compare(scene, "pcss,resolution=512,cube.edges=cross", size);

@@ -16,7 +16,7 @@ TEST(CascadesRendered, LayeredPassDrawsTheSameMaps) {
     if (!test::device().has(Feature::layer_from_vertex_shader)) {
         GTEST_SKIP() << "the device writes no layer from the vertex stage";
     }
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     const Camera& camera = scene.camera("");
     for (const char* split : {"split=practical", "split=sdsm-minmax", "fit=warped"}) {

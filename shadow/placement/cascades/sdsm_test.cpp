@@ -15,7 +15,7 @@ using glsl::GnReceiver;
 
 /// Every counted sample lies inside the view that serves it, kernel included, with a depth inside its range.
 TEST(CascadesRendered, SampleDistributionViewsHoldEverySample) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     const Camera& camera = scene.camera("");
     for (const char* split : {"sdsm-minmax", "sdsm-histogram", "sdsm-minmax,cascades.select=projection"}) {
@@ -50,7 +50,7 @@ TEST(CascadesRendered, SampleDistributionViewsHoldEverySample) {
 
 /// Of six turns the box of least area is taken: never larger than the one that faces the camera, and often smaller.
 TEST(CascadesRendered, SampleDistributionBoxesTurnToTheLeastArea) {
-    const Scene scene = load_scene("courtyard");
+    const Scene& scene = test::built_in("courtyard");
     SceneGpu gpu = upload_scene(device(), scene);
     const std::string text =
         "hard,resolution=256,placement=cascades,cascades.split=sdsm-minmax,cascades.transition=none";
@@ -87,7 +87,7 @@ TEST(CascadesRendered, SampleDistributionBoxesTurnToTheLeastArea) {
 
 /// Casters are culled before the samples are known: what is left out lies outside of all the views that they chose.
 TEST(CascadesRendered, SampleDistributionCastersAreCulledSafely) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(device(), scene);
     const Camera& camera = scene.camera("middle");
     for (const char* split : {"sdsm-minmax", "sdsm-histogram"}) {

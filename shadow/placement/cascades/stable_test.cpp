@@ -158,7 +158,7 @@ TEST(CascadeStable, SlicesBeginWhereTheSceneDoes) {
 
 /// The same points, placed by a camera that stands elsewhere: not a bit of V may change, and without the grid many do.
 TEST(CascadesRendered, StableVisibilityIsBitEqualWhileTheCameraMoves) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     const Camera& camera = scene.camera("");
     for (const char* lookup : {"hard", "pcf"}) {
@@ -213,7 +213,7 @@ TEST(CascadesRendered, StableMapsAreNoWorseThanOneFittedMap) {
 }
 
 TEST(CascadesRendered, ScrolledMapEqualsOneDrawnFromNothing) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     const std::string recipe = "hard,resolution=256,placement=cascades,cascades.scroll=1";
     History kept(test::device());
@@ -298,7 +298,7 @@ TEST(CascadesRendered, KeptMapsAreRedrawnWhereSomethingCastsOtherwise) {
 }
 
 TEST(CascadesRendered, FarCascadesAreRedrawnAtTheirRateAndStillCoverTheirSlices) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(test::device(), scene);
     const std::string recipe = "hard,resolution=256,placement=cascades,cascades.rate=8,cascades.transition=none";
     History kept(test::device());

@@ -28,7 +28,7 @@ TEST(CascadesWarped, OneSliceIsTheMapOfLispsm) {
 }
 
 TEST(CascadesWarped, ReceiversLieInsideTheirMapsWithLinearDepth) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     SceneGpu gpu = upload_scene(device(), scene);
     const Camera& camera = scene.camera("");
     for (const char* transition : {"none", "blend", "dither"}) {
@@ -70,7 +70,7 @@ TEST(CascadesWarped, ReceiversLieInsideTheirMapsWithLinearDepth) {
 }
 
 TEST(CascadesWarped, CulledCastersChangeNoTexel) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     const LightViews views = place(scene, warped);
     ASSERT_EQ(views.casters.size(), 4U);
     EXPECT_LT(views.casters[0].size(), scene.objects.size());
@@ -101,7 +101,7 @@ TEST(CascadesWarped, LowersTheErrorOfTheCorridor) {
 }
 
 TEST(CascadesWarped, IsRefusedWithAChoiceByProjection) {
-    const Scene scene = load_scene("corridor");
+    const Scene& scene = test::built_in("corridor");
     const Recipe recipe = load_recipe(std::string(warped) + ",cascades.select=projection");
     EXPECT_THROW(check_recipe(recipe, scene, scene.lights[0], device()), Refusal);
 }
