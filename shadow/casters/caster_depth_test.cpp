@@ -162,9 +162,15 @@ double gap(const test::Comparison& c) {
 
 TEST(CastersRendered, ModesOtherThanTheNearestNeedNoBias) {
     EXPECT_GT(*contact(std::string("hard,resolution=512") + bare).errors.acne, 0.2);
-    for (const char* casters : {"back", "midpoint", "dual", "ids"}) {
-        const auto c = contact(fmt::format("hard,resolution=512,casters={}{}", casters, bare));
-        EXPECT_LE(*c.errors.acne, 0.01) << casters;
+    // What is left lies in texels that an edge runs through: the same samples in every mode, and a quarter at a quarter of the
+    // texel (0.0072 and 0.0019; which samples a texel's edge meets is worth a third of that).
+    const auto acne = [](const char* casters, int resolution) {
+        return *contact(fmt::format("hard,resolution={},casters={}{}", resolution, casters, bare)).errors.acne;
+    };
+    const double edges = acne("midpoint", 512);
+    EXPECT_LT(acne("midpoint", 2048), edges / 3);
+    for (const char* casters : {"back", "dual", "ids"}) {
+        EXPECT_EQ(acne(casters, 512), edges) << casters;
     }
 }
 
@@ -176,12 +182,14 @@ TEST(CastersRendered, DualGrowsWithTheKernel) {
 }
 
 TEST(CastersRendered, SecondDepthLosesSheetsThatFaceTheLight) {
-    EXPECT_LT(*test::compare("half-plane:hard=true", "hard").errors.leak, 0.02);
+    // Of a row of samples, half of them dark, at most one lies in the texel that the edge runs through.
+    const double edge = 1.0 / (192 / 2);
+    EXPECT_LT(*test::compare("half-plane:hard=true", "hard").errors.leak, edge);
     EXPECT_GT(*test::compare("half-plane:hard=true", "hard,casters=back").errors.leak, 0.98);
     // Midpoint, dual and ids keep them.
     for (const char* casters : {"midpoint", "dual", "ids"}) {
         const auto c = test::compare("half-plane:hard=true", fmt::format("hard,casters={}", casters));
-        EXPECT_LT(*c.errors.leak, 0.02) << casters;
+        EXPECT_LT(*c.errors.leak, edge) << casters;
     }
 }
 
@@ -199,17 +207,23 @@ TEST(CastersRendered, IdsMissWhatAnObjectCastsOnItself) {
         one.objects.pop_back();
     }
     for (const char* recipe : {"hard,resolution=512", "pcf,resolution=512", "pcf,resolution=512,pcf.kernel=poisson"}) {
-        EXPECT_LT(*test::compare(one, recipe).errors.leak, 0.05) << recipe;
+        // Without ids it does not matter what is one object, but that texels lie elsewhere: their phase is worth a few of a
+        // hundred samples of the rim.
+        const double several = *test::compare("contact", recipe).errors.leak;
+        EXPECT_NEAR(*test::compare(one, recipe).errors.leak, several, several / 4) << recipe;
         EXPECT_GT(*test::compare(one, std::string(recipe) + ",casters=ids").errors.leak, 0.95) << recipe;
     }
 }
 
 TEST(CastersRendered, WorkWithEveryPlacementAndManyLayers) {
+    // Where both surfaces of a texel hide the light, a mode says what the nearest does: all samples but a few along the edges of
+    // a box, of 37,000.
+    const double few = 3.0 / (192 * 192);
     for (const char* recipe : {"hard,placement=cascades", "hard,placement=lispsm", "pcf,placement=cascades"}) {
         const auto plain = test::compare("contact", recipe);
         for (const char* casters : {"midpoint", "dual", "ids"}) {
             const auto c = test::compare("contact", fmt::format("{},casters={}", recipe, casters));
-            EXPECT_NEAR(*c.errors.mismatch, *plain.errors.mismatch, 0.01) << recipe << " " << casters;
+            EXPECT_NEAR(*c.errors.mismatch, *plain.errors.mismatch, few) << recipe << " " << casters;
         }
     }
     for (const char* placement : {"cube", "paraboloid"}) {
@@ -217,7 +231,7 @@ TEST(CastersRendered, WorkWithEveryPlacementAndManyLayers) {
         const auto plain = test::compare("contact:light=point", recipe);
         for (const char* casters : {"midpoint", "dual", "ids"}) {
             const auto c = test::compare("contact:light=point", recipe + ",casters=" + casters);
-            EXPECT_NEAR(*c.errors.mismatch, *plain.errors.mismatch, 0.01) << placement << " " << casters;
+            EXPECT_NEAR(*c.errors.mismatch, *plain.errors.mismatch, few) << placement << " " << casters;
         }
     }
 }

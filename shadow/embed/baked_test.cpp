@@ -6,6 +6,7 @@
 #include "gpu/shader_cache.h"
 #include "shadow/embed/rehearsal.h"
 #include "tests/lent_renderer.h"
+#include "tests/thorough.h"
 
 #include <gtest/gtest.h>
 
@@ -202,7 +203,7 @@ TEST_P(Rehearsed, FindsAllThatFramesBind) {
     EXPECT_GT(bound, 10U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Recipes, Rehearsed, testing::ValuesIn(recipe_names()),
+INSTANTIATE_TEST_SUITE_P(Recipes, Rehearsed, testing::ValuesIn(test::drawn_recipes()),
                          [](const auto& recipe) { return identifier(recipe.param); });
 
 std::string text_of_file(const fs::path& path) {

@@ -199,17 +199,22 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
 ParamTable rows() {
     return param_table<GnSssmParams>({
         GN_PARAM(GnSssmParams, separable, boolean, 0, 1, "",
-                 "Reads a row of each kernel and takes the others from neighbours; else the whole grid, `side` times as dear."),
-        GN_PARAM(GnSssmParams, side, integer, 1, 64, "", "Points of a row, and rows: smoother penumbrae, cost in proportion."),
+                 "Reads a row of each kernel and takes the others from neighbours; else the whole grid, `side` times "
+                 "as dear."),
+        GN_PARAM(GnSssmParams, side, integer, 1, 64, "",
+                 "Points of a row, and rows: smoother penumbrae, cost in proportion."),
         GN_PARAM(GnSssmParams, jitter, boolean, 0, 1, "", "Moves a pixel's row by noise: grain instead of steps."),
         GN_PARAM(GnSssmParams, least, real, 0, 16, "texels",
                  "Half width of the narrowest kernel: below one the map's texels show at contacts."),
         GN_PARAM(GnSssmParams, plane, real, 0.1, 1000, "pixels",
-                 "How far off the receiver's plane a neighbour may lie, in widths of a pixel: smoother curved surfaces, bleeding over steps."),
+                 "How far off the receiver's plane a neighbour may lie, in widths of a pixel: smoother curved "
+                 "surfaces, bleeding over steps."),
         GN_PARAM(GnSssmParams, widths, real, 1, 1000, "",
-                 "How many times wider a neighbour's penumbra may be: fewer rows where it is small, blurred contacts where large."),
+                 "How many times wider a neighbour's penumbra may be: fewer rows where it is small, blurred contacts "
+                 "where large."),
         GN_PARAM(GnSssmParams, early_out, boolean, 0, 1, "",
-                 "Skips rows where the least and greatest depth of their region say that all of the light is seen, or none."),
+                 "Skips rows where the least and greatest depth of their region say that all of the light is seen, or "
+                 "none."),
     });
 }
 

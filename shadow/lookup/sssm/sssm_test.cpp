@@ -55,7 +55,8 @@ TEST(Sssm, RowsHandOnWhatTheyFound) {
 /// change places where `turned`.
 Scene under_the_sheet(bool turned, float yfov) {
     Scene scene = load_scene("half-plane");
-    scene.cameras = {{.position_ws = vec3(0, 1.5F, 0), .forward_ws = vec3(0, -1, 0), .up_ws = vec3(0, 0, -1), .yfov = yfov}};
+    scene.cameras = {
+        {.position_ws = vec3(0, 1.5F, 0), .forward_ws = vec3(0, -1, 0), .up_ws = vec3(0, 0, -1), .yfov = yfov}};
     scene.paths.clear();
     if (turned) {
         std::swap(scene.lights.front().shape.right_ws, scene.lights.front().shape.up_ws);
