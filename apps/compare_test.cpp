@@ -22,7 +22,7 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 
 /// Serves every light but suns: maps that are kept over frames need stable windows.
-const std::string no_sun = "hard,placement=cascades,cascades.scroll=1,cascades.fit=plain";
+const std::string no_sun = "hard,placement=cascades,cascades.scroll=1,cascades.fit=plain,resolution=256";
 
 /// Small enough for a software driver.
 Words small(Words arguments) {

@@ -78,7 +78,8 @@ std::vector<std::vector<float>> visibilities(Shadows& shadows, test::LentRendere
 TEST(EmbedBaked, BakedShadersGiveTheSameVisibility) {
     const test::ValidationGuard guard;
     const Folder folder("baked");
-    const std::vector<std::string> recipes{"pcf,placement=cascades", "vsm", "pcf-poisson,placement=lispsm"};
+    std::vector<std::string> recipes{"pcf,placement=cascades", "vsm", "pcf-poisson,placement=lispsm"};
+    recipes.resize(test::sanitized ? 1 : 3);
     bake(folder.path, recipes);
     for (const std::string& recipe : recipes) {
         test::LentRenderer renderer(test::built_in("courtyard"), 96, 54);
