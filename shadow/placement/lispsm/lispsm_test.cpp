@@ -178,24 +178,31 @@ TEST(Lispsm, FallsBackToFitSmoothlyAsTheViewTurnsIntoTheLight) {
 }
 
 TEST(Lispsm, EveryViewSampleProjectsInsideTheMap) {
+    std::size_t asked = 0;
     for (const char* name : {"contact", "corridor", "duel", "duel:light=spot", "tilted", "slab"}) {
         const Scene scene = load_scene(name);
         SceneGpu gpu = upload_scene(test::device(), scene);
         const CpuSamples cpu = render_samples(test::device(), gpu, scene.cameras[0], 64, 64);
         for (const char* placement : {"lispsm", "tsm", "psm", "psm,psm.back=0"}) {
             const LightViews views = test::place(scene, fmt::format("pcf,pcf.size=7,placement={}", placement), 64, 64);
-            for (std::size_t i = 0; i < cpu.position_ws.size() && views.views.size() == 1; ++i) {
+            for (std::size_t i = 0; i < cpu.position_ws.size(); ++i) {
                 const vec3 p_ws(cpu.position_ws[i]);
                 if (cpu.position_ws[i].w < 0.5F || !gn_counted(scene.lights[0].shape, p_ws, vec3(cpu.normal_ws[i]))) {
                     continue;
                 }
-                const vec4 p_cs = views.views[0].cs_from_ws * vec4(p_ws, 1);
-                ASSERT_GT(p_cs.w, 0) << name << " " << placement;
-                ASSERT_LE(std::max(std::abs(p_cs.x), std::abs(p_cs.y)) / p_cs.w, 1.0F)
-                    << name << " " << placement << " sample " << i;
+                // A light among its receivers has six views, and one of them holds the sample.
+                const bool held = std::any_of(views.views.begin(), views.views.end(), [&](const GnLightView& view) {
+                    const vec4 p_cs = view.cs_from_ws * vec4(p_ws, 1);
+                    return p_cs.w > 0 && std::max(std::abs(p_cs.x), std::abs(p_cs.y)) <= p_cs.w;
+                });
+                ASSERT_TRUE(held) << name << " " << placement << " sample " << i << " of " << views.views.size()
+                                  << " views";
+                ++asked;
             }
         }
     }
+    EXPECT_GT(asked, 6U * 4U * 500U)
+        << "the scenes fill at least an eighth of their pictures with what the light reaches";
 }
 
 /// Wherever the light stands, no receiver beyond the pseudo-near plane gets a coarser texel on screen than the coarsest of
