@@ -9,37 +9,9 @@
 #define GN_SHADOW_LOOKUP_PCSS_GLSL
 
 #include "shadow/lookup/pcss/pcss.h"
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/lookup/pcss/pcss_tap.glsl"
 
 #ifndef __cplusplus
-
-// Where kernels cross views (shadow/receiver/map_access.glsl), taps beyond the receiver's are looked up in their own.
-//   #define GN_CROSSING
-//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
-//   with #define GN_LIGHT_VIEW(i) at.view
-
-struct GnPcssTap {
-    float distance;  // metres along the axis
-    bool lit;
-};
-
-GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, vec3 axis, vec2 tap_ts) {
-    GnLookup tap = at;
-    vec2 uv_ts = tap_ts;
-#ifdef GN_CROSSING
-    if (!gn_within_view(at.projected, tap_ts, tap_ts)) {
-        tap = gn_at_tap(at, tap_ts);
-        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? tap_ts : tap.projected.uv_ts;
-    }
-#endif
-    vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
-    ivec2 texel = ivec2(floor(clamp(uv_ts, tap.projected.bounds_ts.xy, last_ts) / tap.projected.texel_ts));
-    float occluder = gn_map_texel(depth, tap, texel).r;
-    float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
-    bool lit = plane <= occluder;
-    float distance = gn_pcss_seen(at, tap, axis, tap_ts, uv_ts, plane, occluder);
-    return GnPcssTap(distance, lit);
-}
 
 struct GnPcssFound {
     float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1

@@ -7,7 +7,7 @@
 #ifndef GN_SHADOW_LOOKUP_SSSM_GLSL
 #define GN_SHADOW_LOOKUP_SSSM_GLSL
 
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/lookup/pcss/pcss_tap.glsl"
 #include "shadow/lookup/sssm/sssm.h"
 
 #ifdef __cplusplus
@@ -56,10 +56,6 @@ GN_FN float gn_sssm_unpack(float packed) { return packed / (1.0f - packed); }
 }  // namespace gn::glsl
 #else
 
-// Where kernels cross views (shadow/receiver/map_access.glsl), taps beyond the receiver's are looked up in their own.
-//   #define GN_CROSSING
-//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
-//   with #define GN_LIGHT_VIEW(i) at.view
 // One of three passes: rows of the search, rows of the filter, or both at once over the whole grid.
 //   #define GN_SSSM_SEARCH
 //   #define GN_SSSM_FILTER
@@ -73,23 +69,11 @@ struct GnSssmSum {
 };
 
 void gn_sssm_add(GnLookup at, sampler2DArray depth, vec3 axis, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
-    GnLookup tap = at;
-    vec2 uv_ts = tap_ts;
-#ifdef GN_CROSSING
-    if (!gn_within_view(at.projected, tap_ts, tap_ts)) {
-        tap = gn_at_tap(at, tap_ts);
-        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? tap_ts : tap.projected.uv_ts;
-    }
-#endif
-    vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
-    ivec2 texel = ivec2(floor(clamp(uv_ts, tap.projected.bounds_ts.xy, last_ts) / tap.projected.texel_ts));
-    float occluder = gn_map_texel(depth, tap, texel).r;
-    float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
+    GnPcssTap tap = gn_pcss_tap(at, depth, axis, tap_ts);
     sum.weight += weight;
-    if (plane > occluder) {
-        float distance = gn_pcss_seen(at, tap, axis, tap_ts, uv_ts, plane, occluder);
+    if (!tap.lit) {
         sum.hidden += weight;
-        sum.before += weight * max(receiver - distance, 0.0);
+        sum.before += weight * max(receiver - tap.distance, 0.0);
     }
 }
 
