@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/lookup/chs/chs.glsl"
 
-#include "tests/rig.h"
+#include "tests/penumbra.h"
 
 #include <cmath>
 
@@ -56,20 +56,6 @@ TEST(Chs, TexelsCoverTheKernelsArea) {
     }
 }
 
-/// Mean of V minus the truth over the penumbra's lit and dark half.
-vec2 halves(const test::Comparison& c) {
-    dvec2 sum(0), count(0);
-    for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
-        const float v = c.truth.visibility[i];
-        if (c.truth.counted[i] != 0 && v > 0.02F && v < 0.98F) {
-            const int half = v > 0.5F ? 1 : 0;
-            sum[half] += static_cast<double>(c.visibility().values[i] - v);
-            count[half] += 1;
-        }
-    }
-    return {sum / count};
-}
-
 TEST(ChsRendered, WidthsAreTheLightsWhateverTheResolution) {
     for (const char* scene : {"half-plane", "half-plane:light=spot", "half-plane:light=directional"}) {
         for (const int resolution : {256, 1024}) {
@@ -78,7 +64,7 @@ TEST(ChsRendered, WidthsAreTheLightsWhateverTheResolution) {
             // A penumbra too wide by a share s is too dark by s / 8 in its lit half and too bright by as much in its dark one.
             // The rim of a kernel 8 texels wide is known to one of them, and the caster's edge to a texel of the map.
             const double texel = 24.0 / resolution / 2 / 0.5;
-            const vec2 wrong = halves(c);
+            const vec2 wrong = test::error_halves(c);
             EXPECT_NEAR(wrong.x, 0, 1.0 / 8 / 8 + texel) << scene << " at " << resolution;
             EXPECT_NEAR(wrong.y, 0, 1.0 / 8 / 8 + texel) << scene << " at " << resolution;
         }

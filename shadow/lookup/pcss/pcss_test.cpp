@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The penumbra of a half-plane is as wide as the light makes it, whatever the map's resolution and the kind of light.
 #include "shadow/lookup/pcss/pcss.glsl"
-#include "tests/rig.h"
+#include "tests/penumbra.h"
 #include "tests/warp_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace gn {
@@ -97,35 +96,13 @@ TEST(Pcss, DistancesAreAlongTheLightsAxisWhateverWayTheViewLooks) {
     }
 }
 
-/// V minus the truth in slices across the penumbra.
-struct Slice {
-    double sum = 0, squares = 0;
-    int samples = 0;
-    [[nodiscard]] double mean() const { return sum / samples; }
-    /// Of the mean, by its own variance.
-    [[nodiscard]] double standard_error() const {
-        return std::sqrt(std::max(squares / samples - mean() * mean(), 0.0) / samples);
-    }
-};
-
 TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     for (const char* scene :
          {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
         for (const int resolution : {512, 2048}) {
             const auto c = test::compare(scene, fmt::format("pcss,resolution={}", resolution),
                                          {.width = 128, .height = 96, .samples = 256});
-            std::array<Slice, 20> slices{};
-            for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
-                const float x = c.frame.samples.position_ws[i].x;
-                if (c.truth.counted[i] == 0 || std::abs(x) >= 1) {
-                    continue;
-                }
-                const double wrong = c.visibility().values[i] - c.truth.visibility[i];
-                Slice& slice = slices.at(static_cast<std::size_t>(10 * (x + 1)));
-                slice.sum += wrong;
-                slice.squares += wrong * wrong;
-                ++slice.samples;
-            }
+            const std::vector<test::Slice> slices = test::error_slices(c, 20);
             // The map decides a caster's edge to its texel, as seen on the receiver 2 m behind it: views are at most 24 m wide
             // there, ramps at least 0.5 m.
             const double texel = 24.0 / resolution / 2 / 0.5;

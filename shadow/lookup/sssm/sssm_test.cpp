@@ -3,9 +3,8 @@
 // wide as the light makes it.
 #include "shadow/lookup/sssm/sssm.glsl"
 
-#include "tests/rig.h"
+#include "tests/penumbra.h"
 
-#include <array>
 #include <cmath>
 
 namespace gn {
@@ -100,34 +99,20 @@ TEST(SssmRendered, WhereNoNeighbourIsSeenARowMustDo) {
     }
 }
 
-/// V minus the truth in slices across the penumbra.
-struct Slice {
-    double sum = 0;
-    int samples = 0;
-};
-
 TEST(SssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     for (const char* scene :
          {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
         for (const int resolution : {256, 1024}) {
             const auto c = test::compare(scene, fmt::format("sssm,resolution={}", resolution),
                                          {.width = 64, .height = 48, .samples = 64});
-            std::array<Slice, 10> slices{};
-            for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
-                const float x = c.frame.samples.position_ws[i].x;
-                if (c.truth.counted[i] != 0 && std::abs(x) < 1) {
-                    Slice& slice = slices.at(static_cast<std::size_t>(5 * (x + 1)));
-                    slice.sum += static_cast<double>(c.visibility().values[i] - c.truth.visibility[i]);
-                    ++slice.samples;
-                }
-            }
+            const std::vector<test::Slice> slices = test::error_slices(c, 10);
             // The map decides a caster's edge to its texel, as seen on the receiver 2 m behind it: views are at most 24 m wide
             // there, ramps at least 0.5 m, so that it is half of one on the mean. Where a share s of the light is hidden, rows
             // of 9 points miss it with 1 - 9 s: V is too great by s (1 - 9 s), at most 1 / 36.
             const double texel = 24.0 / resolution / 2 / 0.5 / 2, missed = 1.0 / 36;
             for (std::size_t s = 0; s < slices.size(); ++s) {
                 if (slices.at(s).samples > 20) {
-                    EXPECT_NEAR(slices.at(s).sum / slices.at(s).samples, 0, texel + missed)
+                    EXPECT_NEAR(slices.at(s).mean(), 0, texel + missed)
                         << scene << " at " << resolution << ", slice " << s;
                 }
             }

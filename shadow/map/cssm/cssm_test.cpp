@@ -2,9 +2,8 @@
 // The series of blockers' depths tends to their mean, and a half-plane's penumbra is as wide as the light makes it.
 #include "shadow/map/cssm/cssm.glsl"
 
-#include "tests/rig.h"
+#include "tests/penumbra.h"
 
-#include <array>
 #include <cmath>
 
 namespace gn {
@@ -66,20 +65,6 @@ TEST(Cssm, DepthsFillTheirFormat) {
     }
 }
 
-/// Mean of V minus the truth over the penumbra's dark and lit half.
-vec2 halves(const test::Comparison& c) {
-    dvec2 sum(0), count(0);
-    for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
-        const float v = c.truth.visibility[i];
-        if (c.truth.counted[i] != 0 && v > 0.02F && v < 0.98F) {
-            const int half = v > 0.5F ? 1 : 0;
-            sum[half] += static_cast<double>(c.visibility().values[i] - v);
-            count[half] += 1;
-        }
-    }
-    return {sum / count};
-}
-
 TEST(CssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     for (const char* scene :
          {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
@@ -91,7 +76,7 @@ TEST(CssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
             // 1 + 2 / 16. A truncated step overshoots by up to 0.09 of what is lit, a quarter of the kernel in the dark
             // half on the mean, and leaves up to 0.05 of what is not. A disc and its square differ by 0.005 on the mean.
             const double width = (std::sqrt(1 + 2.0 / 16) - 1) / 8, over = 0.09, under = 0.05, shape = 0.005;
-            const vec2 wrong = halves(c);
+            const vec2 wrong = test::error_halves(c);
             EXPECT_NEAR(wrong.x, 0, width + shape + 0.25 * over + 0.75 * under) << scene << " at " << resolution;
             EXPECT_NEAR(wrong.y, 0, width + shape + 0.75 * over + 0.25 * under) << scene << " at " << resolution;
         }
