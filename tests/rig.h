@@ -25,6 +25,9 @@ struct ValidationGuard {
 /// A scene that is no file, `courtyard` or `slab:light=point`: made once a suite, which takes a second where sanitizers watch.
 const Scene& built_in(const std::string& name);
 
+/// Every shipped recipe; with sanitizers every fourth, since the sweep over parameters draws each of them there.
+std::vector<std::string> drawn_recipes();
+
 /// One frame of a scene, first light unless told, and its truth.
 struct Comparison {
     Scene scene;
