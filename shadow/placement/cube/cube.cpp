@@ -178,9 +178,8 @@ std::string remark_cube(const Scene& scene, const Recipe& recipe) {
         const double across = 0.5 * recipe.resolution * static_cast<double>(most.diagonal()) / away;
         if (across < few) {
             return fmt::format(
-                "placement 'cube' looks around light '{}' from {:.3g} m off: {:.2g} of its {} texels a side hold all "
-                "it "
-                "shines on; placement=fit looks there alone",
+                "placement 'cube' looks around light '{}' from {:.3g} m off: {:.2g} of its {} texels a side "
+                "hold all it shines on; placement=fit looks there alone",
                 light.name, away, across, recipe.resolution);
         }
     }
