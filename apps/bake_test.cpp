@@ -75,8 +75,8 @@ TEST(Bake, AFullOrUnwritableDiskLeavesNoHalfFolder) {
     const ScratchFolder folder;
     expect_sentence({"bake", "hard", "-o", "/dev/null/baked"}, 1, {"/dev/null/baked", "writable"});
     // Files may not grow beyond 4 KiB: shaders are larger.
-    const std::string command = "trap '' XFSZ; ulimit -f 8; " GNOMON_EXECUTABLE " bake hard -o " + (folder / "baked") +
-                                " > /dev/null 2> " + (folder / "err");
+    const std::string command = "trap '' XFSZ; ulimit -f 8; " + gnomon_executable() + " bake hard -o " +
+                                (folder / "baked") + " > /dev/null 2> " + (folder / "err");
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
     expect_has(file_text(folder / "err"), {"gnomon: ", "cannot be written", "disk full"});
     EXPECT_EQ(entries(folder / "."), 1U);

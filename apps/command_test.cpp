@@ -156,7 +156,7 @@ TEST(CommandLine, HelpAndVersionAnswerOnStandardOutput) {
 }
 
 TEST(CommandLine, AFullDiskIsAFailure) {
-    const std::string command = std::string(GNOMON_EXECUTABLE) + " list > /dev/full 2> /dev/null";
+    const std::string command = gnomon_executable() + " list > /dev/full 2> /dev/null";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 

@@ -72,8 +72,9 @@ TEST(Endings, AFullHomeFolderIsASentenceAndARunWithoutCache) {
     const ScratchFolder folder;
     const std::string command =
         "unshare -rm sh -c 'mount -t tmpfs -o size=16k tmpfs /mnt && env -u MESA_SHADER_CACHE_DIR -u GNOMON_CACHE "
-        "-u XDG_CACHE_HOME HOME=/mnt " GNOMON_EXECUTABLE " render slab -r hard --size 96x64 -o " +
-        (folder / "out.png") + "' > /dev/null 2> " + (folder / "err");
+        "-u XDG_CACHE_HOME HOME=/mnt " +
+        gnomon_executable() + " render slab -r hard --size 96x64 -o " + (folder / "out.png") + "' > /dev/null 2> " +
+        (folder / "err");
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << file_text(folder / "err");
     expect_has(file_text(folder / "err"), {"/mnt", "cache"});
     EXPECT_TRUE(file_text(folder / "out.png").starts_with("\x89PNG"));

@@ -45,7 +45,11 @@ class RunningCommand {
     bool finished_ = false;
 };
 
-/// Runs the built command with these arguments to its end.
+/// The gnomon that is tested: what GNOMON_EXECUTABLE names in the environment, or else the one of this build. So one build
+/// of this suite tests the commands of all builds.
+std::string gnomon_executable();
+
+/// Runs the command with these arguments to its end.
 CommandResult run_gnomon(const std::vector<std::string>& arguments);
 
 /// Every part stands in the text; the failure prints both.

@@ -3,6 +3,7 @@
 #include "scenes/analytic.h"
 
 #include "scenes/noise.h"
+#include "tests/thorough.h"
 
 #include <gtest/gtest.h>
 
@@ -122,18 +123,28 @@ TEST_P(ClosedForm, EqualsBruteForceAtRandomReceiversOfEveryView) {
 // border, and up to twice that for the disc, whose own rim is rasterized too.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, ClosedForm,
-    ::testing::Values(Case{"half-plane", 200, 128, 1.0 / 256}, Case{"half-plane:radius=0.1", 200, 64, 1.0 / 128},
-                      Case{"half-plane:hard=1", 400, 1, 0}, Case{"half-plane:light=spot", 100, 128, 0.012},
-                      Case{"half-plane:light=point,hard=1", 400, 1, 0},
-                      Case{"half-plane:light=directional,hard=1", 400, 1, 0}, Case{"slab", 200, 128, 4.0 / 256},
-                      Case{"slab:light=spot,radius=0.4", 100, 128, 0.02}, Case{"slab:hard=1", 400, 1, 0},
-                      Case{"overlap", 200, 128, 8.0 / 256}, Case{"overlap:arrangement=same", 100, 128, 2.0 / 256},
-                      Case{"overlap:arrangement=opposite", 100, 128, 2.0 / 256, false},
-                      Case{"overlap:hard=1", 300, 1, 0}, Case{"stack", 400, 1, 0},
-                      Case{"tilted:angle=89", 100, 1, 0, true, false},
-                      Case{"tilted:angle=0,light=spot", 100, 1, 0, true, false}, Case{"contact", 500, 1, 0},
-                      Case{"contact:light=point", 500, 1, 0}, Case{"fence", 120, 1, 0}, Case{"corridor", 200, 1, 0},
-                      Case{"duel", 400, 1, 0}, Case{"duel:light=spot", 400, 1, 0}));
+    ::testing::ValuesIn(test::picked<Case>({Case{"half-plane", 200, 128, 1.0 / 256},
+                                            Case{"half-plane:radius=0.1", 200, 64, 1.0 / 128},
+                                            Case{"half-plane:hard=1", 400, 1, 0},
+                                            Case{"half-plane:light=spot", 100, 128, 0.012},
+                                            Case{"half-plane:light=point,hard=1", 400, 1, 0},
+                                            Case{"half-plane:light=directional,hard=1", 400, 1, 0},
+                                            Case{"slab", 200, 128, 4.0 / 256},
+                                            Case{"slab:light=spot,radius=0.4", 100, 128, 0.02},
+                                            Case{"slab:hard=1", 400, 1, 0},
+                                            Case{"overlap", 200, 128, 8.0 / 256},
+                                            Case{"overlap:arrangement=same", 100, 128, 2.0 / 256},
+                                            Case{"overlap:arrangement=opposite", 100, 128, 2.0 / 256, false},
+                                            Case{"overlap:hard=1", 300, 1, 0},
+                                            Case{"stack", 400, 1, 0},
+                                            Case{"tilted:angle=89", 100, 1, 0, true, false},
+                                            Case{"tilted:angle=0,light=spot", 100, 1, 0, true, false},
+                                            Case{"contact", 500, 1, 0},
+                                            Case{"contact:light=point", 500, 1, 0},
+                                            Case{"fence", 120, 1, 0},
+                                            Case{"corridor", 200, 1, 0},
+                                            Case{"duel", 400, 1, 0},
+                                            Case{"duel:light=spot", 400, 1, 0}})));
 
 TEST(ClosedForms, HalfPlaneIsALinearRampOfTheCatalogueWidth) {
     // Light 1 m wide at 4 m, occluder at 2 m below it: the ramp is 1 * (4 - 2) / 2 = 1 m wide.
