@@ -141,6 +141,8 @@ def layering(tree):
             continue
         if name.startswith("shadow/scene/") and re.search(r"_gpu(_test)?\.\w+$", name):
             allowed += ("gpu/", "shadow/")
+        if is_test(name):
+            allowed += ("tests/thorough.h",)  # how much of a suite runs
         # A stage's test may measure against the truth; the layers below may not.
         if is_test(name) and name.startswith(("shadow/", "reference/")):
             allowed += ("reference/", "shadow/metrics/", "shadow/scene/", "scenes/", "tests/")
