@@ -75,7 +75,7 @@ TEST(BilateralRendered, NothingBleedsOverADepthDiscontinuity) {
 }
 
 TEST(BilateralRendered, LessNoiseThanTheLookupAlone) {
-    const test::ComparisonOptions size{.width = 320, .height = 240, .samples = 32};
+    const test::ComparisonOptions size{.width = 480, .height = 360, .samples = 32};
     const auto noisy = test::compare("courtyard", "pcf-bilateral,visibility=none", size);
     const auto filtered = test::compare("courtyard", "pcf-bilateral", size);
     EXPECT_LT(*filtered.errors.rmse, *noisy.errors.rmse);
@@ -85,9 +85,8 @@ TEST(BilateralRendered, LessNoiseThanTheLookupAlone) {
     // has half the variance of one, and in these penumbrae no sample has fewer than one of its like beside it.
     const auto variance = [&](const test::Comparison& few, const std::string& more) {
         const auto many = test::compare("courtyard", "pcf-bilateral,pcf.taps=64" + more, size);
-        const double rmse = *visibility_errors(few.visibility().values, many.visibility().values, few.truth.counted,
-                                               size.width, size.height)
-                                 .rmse;
+        const double rmse =
+            *visibility_errors(few.visibility().values, many.visibility().values, few.truth.counted, 480, 360).rmse;
         return rmse * rmse;
     };
     EXPECT_LT(variance(filtered, ""), 0.5 * variance(noisy, ",visibility=none"));
