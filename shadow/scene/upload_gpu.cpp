@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene on the GPU: five buffers and the base colour textures.
+#include "gpu/upload.h"
 #include "shadow/frame/frame.h"
 
 #include <algorithm>
@@ -8,12 +9,6 @@
 
 namespace gn {
 namespace {
-
-template <class T>
-Buffer upload(Device& device, const char* name, const std::vector<T>& values, VkBufferUsageFlags usage) {
-    return upload_buffer(device, {.name = name, .bytes = values.size() * sizeof(T), .usage = usage},
-                         std::as_bytes(std::span(values)));
-}
 
 Texture2D upload_rgba8(Device& device, const std::string& name, const Image8& image) {
     const auto width = static_cast<std::uint32_t>(image.width);
@@ -46,8 +41,7 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     gpu.positions = upload(device, "positions", scene.positions_ws, vertex);
     gpu.normals = upload(device, "normals", scene.normals_ws, vertex);
     gpu.uvs = upload(device, "uvs", scene.uvs, vertex);
-    gpu.colors = upload(device, "colors", scene.colors.empty() ? std::vector<vec4>{vec4(1.0F)} : scene.colors,
-                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    gpu.colors = upload(device, "colors", scene.colors.empty() ? std::vector<vec4>{vec4(1.0F)} : scene.colors);
     gpu.indices = upload(device, "indices", scene.triangles,
                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     for (const Texture& texture : scene.textures) {

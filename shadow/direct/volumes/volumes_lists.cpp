@@ -3,6 +3,7 @@
 // [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
 #include "gpu/shader_inputs.h"
+#include "gpu/upload.h"
 #include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/recipe/prepared.h"
@@ -105,13 +106,6 @@ void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderIn
             inputs.set(r);
             dispatch_all(r, count);
         });
-}
-
-template <class T>
-Buffer upload(Device& device, const char* name, const std::vector<T>& values) {
-    return upload_buffer(
-        device, {.name = name, .bytes = values.size() * sizeof(T), .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
-        std::as_bytes(std::span(values)));
 }
 
 // Which triangles cast, and which of them wear a mask.
