@@ -30,14 +30,10 @@ bool is_shared_header(const fs::path& path) {
     return path.extension() == ".h" && text_of(path).find("#pragma once") == std::string::npos;
 }
 
-/// Stages read their inputs under names of their own, so only the portable files are held to compiling alone: a part's
-/// <id>.glsl, and what a stage's folder or shadow/ itself shares.
-bool is_portable(const fs::path& relative) {
-    if (relative.extension() != ".glsl") {
-        return false;
-    }
-    const auto depth = std::distance(relative.begin(), relative.end());
-    return depth <= 3 || relative.stem() == relative.parent_path().filename();
+/// Functions for anybody's shader are guarded. A .glsl without a guard is the body of one shader, which a source completes
+/// (tests/layout_rules.py holds it to that): it names inputs that are declared there.
+bool is_portable(const fs::path& path) {
+    return path.extension() == ".glsl" && text_of(path).find("#ifndef GN_") != std::string::npos;
 }
 
 std::vector<std::string> includable_files() {
@@ -45,7 +41,7 @@ std::vector<std::string> includable_files() {
     for (const char* folder : {"base", "gpu", "shadow"}) {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
             const fs::path relative = fs::relative(entry.path(), root);
-            if (entry.is_regular_file() && (is_portable(relative) || is_shared_header(entry.path()))) {
+            if (entry.is_regular_file() && (is_portable(entry.path()) || is_shared_header(entry.path()))) {
                 found.push_back(relative.generic_string());
             }
         }

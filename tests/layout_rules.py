@@ -15,6 +15,7 @@ SOURCES = {".cpp", ".h", ".glsl", ".comp", ".frag", ".vert", ".geom"}
 SHADERS = {".glsl", ".comp", ".frag", ".vert", ".geom"}
 SCRIPTS = {".py", ".cmake", ".toml", ".html", ".css", ".js", ".bib", ".sh"}
 LINE_LIMIT = 600
+SCREEN = 50
 KEY = r"[A-Z][A-Za-z]{0,5}\+?\d\d[a-z]?"
 
 
@@ -149,6 +150,10 @@ def layering(tree):
         for include in includes_of(tree, name):
             if "/" in include and not include.startswith(allowed):
                 complaints.append(f"{name}: includes {include}, but may include only {', '.join(allowed)}")
+            # What a scene is knows no file that holds one: a renderer embeds the first alone.
+            if include.startswith("shadow/scene/files/") and name.startswith("shadow/") and not name.startswith(
+                    "shadow/scene/files/") and not is_test(name):
+                complaints.append(f"{name}: includes {include}, but only shadow/scene/files and apps know files of scenes")
     return complaints
 
 
@@ -309,13 +314,16 @@ def issue_numbers(tree):
 
 
 def portable_glsl(tree):
-    """A part's .glsl and the stages' own go into anybody's shader: functions only, every name with our prefix, guarded."""
+    """A .glsl goes into anybody's shader: functions only, every name with our prefix, guarded. Without a guard it is the body
+    of one shader of ours, which the .cpp beside it completes, and no part's own <id>.glsl."""
     complaints = []
     for name in tree.having({".glsl"}, "shadow/"):
         text = re.sub(r"/\*.*?\*/", "", tree.text(name), flags=re.S)
         text = re.sub(r"//.*", "", text)
-        if f"/{pathlib.Path(name).parent.name}.glsl" not in "/" + name and name.count("/") > 2:
-            continue  # our own entry points beside the portable file
+        guarded = re.search(r"^#ifndef\s+(GN_\w+)\s*\n#define\s+\1", text, re.M)
+        if not guarded:
+            complaints += [] if is_shader_body(tree, name) else [f"{name}: has no include guard"]
+            continue
         for word, meaning in (("#version", "a version"), (r"\blayout\s*\(", "a layout"), (r"^\s*uniform\b", "a uniform"),
                               (r"^\s*(?:in|out)\s+\w+\s+\w+\s*;", "a stage variable"), (r"\bvoid\s+main\s*\(", "main")):
             if re.search(word, text, re.M):
@@ -325,16 +333,31 @@ def portable_glsl(tree):
                             text, re.M)
         complaints += [f"{name}: '{word}' lacks the prefix gn_, Gn or GN_" for word in sorted(set(names))
                        if not re.match(r"gn_|Gn|GN_", word)]
-        if not re.search(r"^#ifndef\s+(GN_\w+)\s*\n#define\s+\1", text, re.M):
-            complaints.append(f"{name}: has no include guard")
     return complaints
 
 
+def is_shader_body(tree, name):
+    """Whether a source beside a .glsl, or another body there, names it in an #include of its text."""
+    path = pathlib.PurePosixPath(name)
+    beside = [other for other in tree.having({".cpp", ".glsl"}) if pathlib.PurePosixPath(other).parent == path.parent]
+    named = rf"{re.escape(str(path.parent))}/(?:{re.escape(path.name)}|{re.escape(path.stem.rsplit('_', 1)[0])}_\{{\}}\.glsl)"
+    return path.stem != path.parent.name and any(re.search(named, tree.text(other)) for other in beside if other != name)
+
+
+def long_shader_texts(tree):
+    """GLSL longer than a screen stands in a file beside its .cpp."""
+    return [f"{name}:{tree.text(name)[:found.start()].count(chr(10)) + 1}: {found[1].count(chr(10))} lines of GLSL; give them a "
+            f".glsl beside it" for name in tree.having({".cpp"}, "shadow/") if not is_test(name)
+            for found in re.finditer(r'R"\((.*?)\)"', tree.text(name), re.S) if found[1].count("\n") > SCREEN]
+
+
 def named_bindings(tree):
-    """Shaders of shadow/ declare what they read through ShaderInputs, by name: no binding number and no block by hand."""
+    """Shaders of shadow/ and of its tests declare what they read through ShaderInputs, by name: no binding number and no
+    block by hand. What tests of the layer below try, and the foreign renderers, count for themselves."""
     complaints = []
     by_hand = (r"\bbinding\s*=\s*\d", r"^\s*(?:layout\s*\([^)]*\)\s*)?(?:(?:read|write)only\s+)?(?:uniform|buffer)\s+\w+\s*\{")
-    for name in (file for file in tree.having({".cpp", ".h", ".glsl"}, "shadow/") if not is_test(file)):
+    ours = [file for file in tree.having(SOURCES) if file.startswith(("shadow/", "tests/"))]
+    for name in (file for file in ours if not file.startswith("tests/performance/")):
         for number, line in enumerate(tree.text(name).splitlines(), 1):
             if "push_constant" not in line and any(re.search(word, line) for word in by_hand):
                 complaints.append(f"{name}:{number}: numbers a binding by hand: {line.strip()}; ShaderInputs declares it by name")
@@ -399,4 +422,4 @@ def mutants(tree):
 
 
 ALL = (part_shape, part_definitions, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
-       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, named_bindings, recipes, manual_pages, mutants)
+       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, long_shader_texts, named_bindings, recipes, manual_pages, mutants)

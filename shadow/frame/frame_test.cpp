@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The order of the stages: what a recipe combines, and in which order V is changed.
+#include "gpu/shader_inputs.h"
 #include "tests/rig.h"
 
 #include <algorithm>
@@ -23,17 +24,14 @@ std::vector<float> values_of(const Scene& scene, const Recipe& recipe) {
 /// V that changes from place to place and owes nothing to shadows: the fraction of x.
 Visibility add_striped(const FrameInput& input, const Recipe&) {
     const Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs;
+    inputs.texture("sampler2D", "position", input.samples.position)
+        .image("r32f", "writeonly", "image2D", "visibility", result.image);
     input.graph.add_pass(
-        "striped",
-        [&](PassBuilder& pass) {
-            pass.sample(input.samples.position);
-            pass.storage_write(result.image);
-        },
-        [=, samples = input.samples](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "striped", R"(
+        "striped", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "striped", inputs.text() + R"(
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D position;
-layout(binding = 1, r32f) uniform writeonly image2D visibility;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, imageSize(visibility)))) {
@@ -42,9 +40,8 @@ void main() {
 }
 )"},
                                {}});
-            r.set("position", samples.position);
-            r.set_storage("visibility", result.image);
-            r.dispatch_pixels(samples.width, samples.height);
+            inputs.set(r);
+            r.dispatch_pixels(size.x, size.y);
         });
     return result;
 }
@@ -86,8 +83,6 @@ template <int kind>
 Visibility change(const FrameInput& input, const Recipe&, const Visibility& given) {
     const std::string text = fmt::format(R"(
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D given;
-layout(binding = 1, r32f) uniform writeonly image2D changed;
 void main() {{
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, imageSize(changed)))) {{
@@ -98,16 +93,13 @@ void main() {{
 )",
                                          kind == 0 ? "0.5 * v" : "0.25 + 0.75 * v");
     const Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs;
+    inputs.texture("sampler2D", "given", given.image).image("r32f", "writeonly", "image2D", "changed", result.image);
     input.graph.add_pass(
-        "change",
-        [&](PassBuilder& pass) {
-            pass.sample(given.image);
-            pass.storage_write(result.image);
-        },
+        "change", [&](PassBuilder& pass) { inputs.declare(pass); },
         [=, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "change", text}, {}});
-            r.set("given", given.image);
-            r.set_storage("changed", result.image);
+            r.bind(ComputeDesc{{ShaderKind::compute, "change", inputs.text() + text}, {}});
+            inputs.set(r);
             r.dispatch_pixels(size.x, size.y);
         });
     return result;

@@ -53,19 +53,24 @@ struct Source {
             const std::size_t texels = std::size_t{width} * height;
             std::vector<float> part(values.begin() + static_cast<std::ptrdiff_t>(layer * texels),
                                     values.begin() + static_cast<std::ptrdiff_t>((layer + 1) * texels));
+            ShaderInputs inputs;
+            inputs.block("readonly buffer", "Values", "float values[];", std::as_bytes(std::span(part)));
             graph.add_pass(
-                "fill", [&](PassBuilder& pass) { pass.color(target, Load::discard, {}, one_layer(layer)); },
-                [part, w = static_cast<std::int32_t>(width)](Recorder& r) {
-                    r.bind(fullscreen({ShaderKind::fragment, "fill", R"(
-layout(binding = 0, scalar) readonly buffer Values { float v[]; } values;
+                "fill",
+                [&](PassBuilder& pass) {
+                    pass.color(target, Load::discard, {}, one_layer(layer));
+                    inputs.declare(pass);
+                },
+                [inputs, w = static_cast<std::int32_t>(width)](Recorder& r) {
+                    r.bind(fullscreen({ShaderKind::fragment, "fill", inputs.text() + R"(
 layout(push_constant) uniform Push { int width; } push;
 layout(location = 0) out vec4 result;
 void main() {
-    float v = values.v[int(gl_FragCoord.y) * push.width + int(gl_FragCoord.x)];
+    float v = values[int(gl_FragCoord.y) * push.width + int(gl_FragCoord.x)];
     result = vec4(v, v * v, v * v * v, v * v * v * v);
 }
 )"}));
-                    r.set_bytes("values", std::as_bytes(std::span(part)));
+                    inputs.set(r);
                     r.push_value(w);
                     r.draw(3);
                 });
@@ -263,36 +268,29 @@ TEST(Derived, RectanglesAreCoveredByFourFetches) {
     const TextureHandle buffer = add_n_buffer(graph, map, NBuffer::min_max);
     const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec4)});
     graph.keep(answers);
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "pyramid", pyramid)
+        .texture("sampler2DArray", "n_buffer", buffer)
+        .block("readonly buffer", "Asked", "ivec4 asked[];", std::as_bytes(std::span(asked)))
+        .buffer("writeonly buffer", "Answers", "vec4 answers[];", answers);
     graph.add_pass(
-        "ask",
-        [&](PassBuilder& pass) {
-            pass.sample(pyramid);
-            pass.sample(buffer);
-            pass.storage_write(answers);
-        },
+        "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
         [=](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "ask", R"(
+            r.bind(ComputeDesc{{ShaderKind::compute, "ask", inputs.text() + R"(
 #include "shadow/map/derived.glsl"
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform sampler2DArray pyramid;
-layout(binding = 1) uniform sampler2DArray n_buffer;
-layout(binding = 2, scalar) readonly buffer Asked { ivec4 rectangles[]; } asked;
-layout(binding = 3, scalar) buffer Answers { vec4 values[]; } answers;
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < asked.rectangles.length()) {
-        ivec4 rectangle = asked.rectangles[i];
+    if (i < asked.length()) {
+        ivec4 rectangle = asked[i];
         int levels = textureQueryLevels(pyramid);
-        answers.values[i] = vec4(gn_pyramid_min_max(pyramid, rectangle.xy, rectangle.zw, 1, levels),
-                                 gn_n_buffer_min_max(n_buffer, rectangle.xy, rectangle.zw, 1, levels));
+        answers[i] = vec4(gn_pyramid_min_max(pyramid, rectangle.xy, rectangle.zw, 1, levels),
+                          gn_n_buffer_min_max(n_buffer, rectangle.xy, rectangle.zw, 1, levels));
     }
 }
 )"},
                                {}});
-            r.set("pyramid", pyramid);
-            r.set("n_buffer", buffer);
-            r.set_bytes("asked", std::as_bytes(std::span(asked)));
-            r.set("answers", answers);
+            inputs.set(r);
             r.dispatch((rectangles + 63) / 64, 1);
         });
     graph.execute(false);

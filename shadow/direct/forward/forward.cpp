@@ -5,7 +5,7 @@
 // Departs from it: splats are added up in one compute pass, and the camera's visibility is settled by the depth of each
 // sample in the map, not by a second depth buffer.
 //
-// Also here: forward_passes.h, forward_passes.cpp.
+// Also here: forward_passes.h, forward_passes.cpp, forward_splat.glsl.
 #include "shadow/direct/forward/forward_passes.h"
 
 #include "shadow/casters/raster.h"

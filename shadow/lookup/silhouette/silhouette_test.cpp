@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/lookup/silhouette/silhouette.glsl"
 
+#include "gpu/shader_inputs.h"
 #include "shadow/view/read_back.h"
 #include "tests/rig.h"
 
@@ -72,8 +73,6 @@ TEST(SilhouetteLookup, TapsStayInTheirViewsRectangle) {
     const std::string text = R"(
 #include "shadow/lookup/silhouette/silhouette.glsl"
 layout(local_size_x = 1) in;
-layout(binding = 0) uniform sampler2DArray map;
-layout(binding = 1, r32f) uniform writeonly image2D result;
 void main() {
     GnReceiver receiver;
     GnProjected p;
@@ -95,16 +94,13 @@ void main() {
     const TextureHandle source = graph.import(map);
     const TextureHandle result =
         graph.create({.name = "result", .format = VK_FORMAT_R32_SFLOAT, .width = 1, .height = 1});
+    ShaderInputs inputs;
+    inputs.texture("sampler2DArray", "map", source).image("r32f", "writeonly", "image2D", "result", result);
     graph.add_pass(
-        "look up",
-        [&](PassBuilder& pass) {
-            pass.sample(source);
-            pass.storage_write(result);
-        },
+        "look up", [&](PassBuilder& pass) { inputs.declare(pass); },
         [=](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "silhouette-lookup", text}, {}});
-            r.set("map", source);
-            r.set_storage("result", result);
+            r.bind(ComputeDesc{{ShaderKind::compute, "silhouette-lookup", inputs.text() + text}, {}});
+            inputs.set(r);
             r.dispatch(1, 1);
         });
     graph.keep(result);

@@ -4,7 +4,7 @@
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 //
 // Stands on: shadow/map/vsm (a layer is a variance map of warped depth)
-// Also here: lvsm_passes.h, lloyd.cpp, lloyd.glsl, warp.cpp.
+// Also here: lvsm_passes.h, lloyd.cpp, lloyd.glsl, lloyd_relax.glsl, warp.cpp.
 #include "shadow/map/lvsm/lvsm.h"
 
 #include "shadow/map/lvsm/lvsm_passes.h"

@@ -5,7 +5,7 @@
 // Departs from it: the vertex stage finds silhouettes from the edges' triangles, each edge drawn as a quad that covers
 // every cell it touches; depth and point share one texture.
 //
-// Also here: silhouette_edges.cpp, silhouette_edges.h.
+// Also here: silhouette_edges.cpp, silhouette_edges.h, silhouette_edges.glsl.
 #include "shadow/map/prefilter.h"
 #include "shadow/map/silhouette_map/silhouette_edges.h"
 
