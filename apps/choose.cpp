@@ -12,7 +12,7 @@ LoadOptions load_options(const FileOptions& file, const Size& size) {
     options.ground.kind = ground.height ? Ground::at_height : ground.automatic ? Ground::automatic : Ground::none;
     options.ground.height = ground.height.value_or(0.0);
     options.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    options.up = file.up == "z" ? UpAxis::z : UpAxis::y;
+    options.up = file.up;
     options.assets.assign(file.assets.begin(), file.assets.end());
     return options;
 }

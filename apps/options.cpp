@@ -93,10 +93,21 @@ GroundOption parse_ground(const std::string& text) {
     return {false, number ? std::optional<double>(height) : std::nullopt};
 }
 
-void check_up(const FileOptions& file) {
-    if (file.up != "y" && file.up != "z") {
-        throw InputError(fmt::format("--up: '{}' is no axis that points up; valid are y, z", file.up));
+UpAxis parse_up(const std::string& text) {
+    if (text != "y" && text != "z") {
+        throw InputError(fmt::format("--up: '{}' is no axis that points up; valid are y, z", text));
     }
+    return text == "z" ? UpAxis::z : UpAxis::y;
+}
+
+/// How a file is read, as typed.
+struct FileWords {
+    std::string ground, up = "y";
+};
+
+void parse_file(const FileWords& words, FileOptions& file) {
+    file.up = parse_up(words.up);
+    file.ground = parse_ground(words.ground);
 }
 
 /// The words of the command line; one that ends in a comma goes on in the next: -r pcf, pcf.size=5.
@@ -141,7 +152,8 @@ struct Parser {
     RenderOptions render;
     CompareOptions compare;
     BakeOptions bake;
-    std::string render_size, compare_size, render_ground, compare_ground;
+    std::string render_size, compare_size;
+    FileWords render_file, compare_file;
     CLI::Option* path = nullptr;
     bool verbose = false, quiet = false;
 
@@ -170,9 +182,9 @@ struct Parser {
             ->required();
     }
 
-    static void add_file_options(CLI::App* command, FileOptions& file, std::string& ground) {
-        command->add_option("--ground", ground, ground_help);
-        command->add_option("--up", file.up, up_help);
+    static void add_file_options(CLI::App* command, FileOptions& file, FileWords& words) {
+        command->add_option("--ground", words.ground, ground_help);
+        command->add_option("--up", words.up, up_help);
         command->add_option("--assets", file.assets, assets_help)->type_name("DIR")->allow_extra_args(false);
     }
 
@@ -190,7 +202,7 @@ struct Parser {
         command->add_option("-o,--output", render.output, "Picture to write, .png or .exr (default: out.png)");
         command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", render.view, "Name of the camera (default: the first)");
-        add_file_options(command, render.file, render_ground);
+        add_file_options(command, render.file, render_file);
         command
             ->add_option("--antialias", render.antialias,
                          "Frames with sub-pixel shifts that are averaged; each costs a whole frame, 1 smooths "
@@ -215,7 +227,7 @@ struct Parser {
         command->add_option("--json", compare.json, "Write the figures as JSON; - is standard output");
         command->add_option("--size", compare_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", compare.view, "Name of the camera (default: the first)");
-        add_file_options(command, compare.file, compare_ground);
+        add_file_options(command, compare.file, compare_file);
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
         command->add_option("--against", compare.against,
                             "Also hold every run against this recipe's visibility: the figures 'against'");
@@ -319,15 +331,13 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         return parser.bake;
     }
     if (name == "render") {
-        check_up(parser.render.file);
-        parser.render.file.ground = parse_ground(parser.render_ground);
+        parse_file(parser.render_file, parser.render.file);
         parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
         return parser.render;
     }
     if (name == "compare") {
-        check_up(parser.compare.file);
+        parse_file(parser.compare_file, parser.compare.file);
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
-        parser.compare.file.ground = parse_ground(parser.compare_ground);
         parser.compare.command = quoted_command(words);
         parser.compare.follow_path = parser.path->count() > 0;
         if (parser.compare.folder.empty() && parser.compare.json.empty()) {

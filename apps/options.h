@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "shadow/scene/scene.h"
 
 #include <optional>
 #include <string>
@@ -54,7 +55,7 @@ struct GroundOption {
 struct FileOptions {
     GroundOption ground;
     std::vector<std::string> assets;  ///< folders that it may read from besides its own
-    std::string up = "y";             ///< its axis that points up, y or z
+    UpAxis up = UpAxis::y;
 };
 
 struct RenderOptions {

@@ -148,7 +148,7 @@ class Comparer {
             run = failed_run(view.result.scene, asked, sentence);
             recover(view);
         }
-        if (run.status == "ok" || run.status == "empty") {
+        if (run.status == Status::ok || run.status == Status::empty) {
             cache_.store(key, run);
         }
         take(std::move(run));
@@ -177,7 +177,7 @@ class Comparer {
 
     RunResult failed_run(const std::string& scene, const AskedRecipe& asked, const std::string& sentence) {
         RunResult run = describe_run(scene, asked, options_);
-        run.status = "failed";
+        run.status = Status::failed;
         run.reason = sentence;
         return run;
     }
@@ -211,18 +211,18 @@ class Comparer {
         progress_.clear();
         const std::string of = fmt::format("{} with {}", run.scene, run.recipe);
         // A run that left lights out is ok, but nobody should have to find that out from the figures.
-        const bool light_refused = run.status == "ok" && say_lights(run, of);
+        const bool light_refused = run.status == Status::ok && say_lights(run, of);
         for (const std::string& remark : run.remarks) {
             say_once(of, run.scene, remark);
         }
-        if (run.status == "failed") {
+        if (run.status == Status::failed) {
             worsen(exit_failed);
         }
-        if (options_.strict && (run.status == "refused" || run.status == "empty" || light_refused)) {
+        if (options_.strict && (run.status == Status::refused || run.status == Status::empty || light_refused)) {
             worsen(exit_failed);
         }
-        if (run.status != "ok") {
-            fmt::print(stderr, "gnomon: {} {}: {}\n", of, run.status, run.reason);
+        if (run.status != Status::ok) {
+            fmt::print(stderr, "gnomon: {} {}: {}\n", of, name_of(run.status), run.reason);
         }
         comparison_.runs.push_back(std::move(run));
     }
@@ -232,9 +232,9 @@ class Comparer {
         std::vector<LightReason> refused;
         std::vector<std::string> empty;
         for (const LightResult& light : run.lights) {
-            if (light.status == "refused") {
+            if (light.status == Status::refused) {
                 refused.emplace_back(light.name, light.reason);
-            } else if (light.status == "empty") {
+            } else if (light.status == Status::empty) {
                 empty.push_back(light.reason);
             }
         }

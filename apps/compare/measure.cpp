@@ -44,7 +44,7 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
     command += options.file.ground.height       ? fmt::format(" --ground {}", *options.file.ground.height)
                : !options.file.ground.automatic ? " --ground none"
                                                 : "";
-    command += options.file.up == "y" ? "" : " --up " + options.file.up;
+    command += options.file.up == UpAxis::y ? "" : " --up z";
     for (const std::string& folder : options.file.assets) {
         command += " --assets " + shell_word(folder);
     }
@@ -167,13 +167,13 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
         }
         LightResult light{view.scene().lights[l].name};
         if (!frame.refused[l].empty()) {
-            light.status = "refused";
+            light.status = Status::refused;
             light.reason = frame.refused[l];
         } else {
             const TruthResult& truth = view.truth(l, frame.visibility[l].channels);
             const Reach reach = reach_of(view.samples(), view.scene().lights[l].shape, truth.visibility);
             light.reason = empty_reason(reach, light.name, view.camera().name);
-            light.status = light.reason.empty() ? "ok" : "empty";
+            light.status = light.reason.empty() ? Status::ok : Status::empty;
             if (const std::string remark = shadow_remark(reach, light.name); !remark.empty()) {
                 run.remarks.push_back(remark);
             }
@@ -202,7 +202,7 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
 void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const FrameResult& frame,
                       const std::vector<bool>& served, const PictureNames& names) {
     const bool all = std::none_of(run.lights.begin(), run.lights.end(),
-                                  [](const LightResult& light) { return light.status == "refused"; });
+                                  [](const LightResult& light) { return light.status == Status::refused; });
     const Image technique = tonemap(frame.picture, view.exposure());
     const bool colours = std::any_of(frame.visibility.begin(), frame.visibility.end(),
                                      [](const Image& visibility) { return visibility.channels == 3; });
@@ -249,11 +249,11 @@ void account(RunResult& run, const FrameResult& frame) {
 
 /// Settles what the run as a whole is: ok where something was measured for some light.
 void judge(RunResult& run) {
-    const auto any = [&](std::string_view status) {
+    const auto any = [&](Status status) {
         return std::any_of(run.lights.begin(), run.lights.end(), [&](const auto& l) { return l.status == status; });
     };
-    run.status = any("ok") ? "ok" : any("empty") ? "empty" : "refused";
-    if (run.status == "ok") {
+    run.status = any(Status::ok) ? Status::ok : any(Status::empty) ? Status::empty : Status::refused;
+    if (run.status == Status::ok) {
         return;
     }
     // One reason for all, as where the view sees nothing, needs no list of lights.
@@ -263,7 +263,7 @@ void judge(RunResult& run) {
         reasons.emplace_back(light.name, light.reason);
         same = same && light.reason == run.lights.front().reason;
     }
-    run.reason = same && run.status == "empty" ? run.lights.front().reason : joined_reasons(reasons);
+    run.reason = same && run.status == Status::empty ? run.lights.front().reason : joined_reasons(reasons);
 }
 
 /// Frames that take longer than this are timed once: they repeat well, and a recipe may draw 64 maps a light.
@@ -327,12 +327,12 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
                                                          slug(asked.recipe.name), run_key.substr(0, 8))};
     const std::vector<bool> served = measure_lights(run, view, bench, asked.recipe, frame, names);
     judge(run);
-    if (run.status == "refused") {
+    if (run.status == Status::refused) {
         return run;
     }
     measure_pictures(run, view, bench, frame, served, names);
     account(run, frame);
-    if (run.status == "empty") {
+    if (run.status == Status::empty) {
         run.errors = {};
         return run;
     }
@@ -344,7 +344,7 @@ RunResult measure(ViewSession& view, Bench& bench, const AskedRecipe& asked, con
     // What the validation layers say makes every figure doubtful.
     const std::vector<std::string>& messages = bench.device().messages();
     if (messages.size() > messages_before) {
-        run.status = "failed";
+        run.status = Status::failed;
         run.reason = fmt::format("{} validation messages, the first: {}", messages.size() - messages_before,
                                  messages[messages_before]);
     }

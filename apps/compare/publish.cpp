@@ -37,9 +37,10 @@ std::string for_script_element(std::string json) {
 /// "ok", or "ok, 2 of 3 lights" when some were refused.
 std::string status_of(const RunResult& run) {
     const auto served =
-        std::count_if(run.lights.begin(), run.lights.end(), [](const auto& l) { return l.status == "ok"; });
+        std::count_if(run.lights.begin(), run.lights.end(), [](const auto& l) { return l.status == Status::ok; });
     const bool all = served == static_cast<std::ptrdiff_t>(run.lights.size());
-    return run.status != "ok" || all ? run.status : fmt::format("ok, {} of {} lights", served, run.lights.size());
+    return run.status != Status::ok || all ? std::string(name_of(run.status))
+                                           : fmt::format("ok, {} of {} lights", served, run.lights.size());
 }
 
 std::string milliseconds(std::optional<double> value) {
@@ -103,7 +104,7 @@ std::string summary_table(const Comparison& comparison) {
         rows.push_back({run.scene, run.overrides.empty() ? run.recipe : run.recipe + "," + run.overrides,
                         status_of(run), figure(e.rmse), figure(e.mismatch), figure(e.leak), figure(e.acne),
                         figure(e.penumbra), figure(e.flip), milliseconds(run.shadow.median),
-                        milliseconds(run.frame.median), run.status == "ok" ? human_bytes(run.bytes) : "-"});
+                        milliseconds(run.frame.median), run.status == Status::ok ? human_bytes(run.bytes) : "-"});
         if (path) {
             rows.back().insert(rows.back().begin() + 9, figure(e.flicker));
         }

@@ -7,9 +7,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,8 +25,18 @@ struct Spread {
 };
 Spread spread_of(const std::vector<double>& values);
 
+/// How a light or a run ended: measured; refused by the recipe; empty, where no view sample counts; failed, where no figure
+/// can be trusted.
+enum class Status { ok, refused, empty, failed };
+inline constexpr std::array<std::string_view, 4> status_names{"ok", "refused", "empty", "failed"};
+constexpr std::string_view name_of(Status status) {
+    return status_names[static_cast<std::size_t>(status)];
+}
+
 struct LightResult {
-    std::string name, status = "ok", reason;  ///< status: ok, refused, or empty: no view sample counts for it
+    std::string name;
+    Status status = Status::ok;  ///< never failed
+    std::string reason;
     Errors errors;
     std::string error_map;  ///< file beside the report, or ""
 };
@@ -46,12 +58,13 @@ struct InsideResult {
 };
 
 /// One recipe on one view of one scene. `status` is ok when something was measured for at least one light; lights that
-/// were refused or reach nothing say so themselves. It is refused when every light was, empty when nothing could be
-/// measured for those that were served, and failed when no figure can be trusted.
+/// were refused or reach nothing say so themselves. It is refused when every light was, and empty when nothing could be
+/// measured for those that were served.
 struct RunResult {
     std::string scene, view, recipe, overrides;
     int width = 0, height = 0;
-    std::string status = "ok", reason;
+    Status status = Status::ok;
+    std::string reason;
     Errors errors;  ///< all served lights pooled, and the pictures
     std::vector<LightResult> lights;
     Spread shadow, frame;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/result.h"
 
+#include "base/error.h"
 #include "base/stats.h"
 
 #include <nlohmann/json.hpp>
@@ -62,9 +63,17 @@ Spread spread_from(const ordered_json& json) {
     return {optional_number(json.at("median")), optional_number(json.at("min")), optional_number(json.at("max"))};
 }
 
+Status status_from(const ordered_json& json) {
+    const auto found = std::find(status_names.begin(), status_names.end(), json.get<std::string>());
+    if (found == status_names.end()) {
+        fail("no status is called {}", json.dump());
+    }
+    return static_cast<Status>(found - status_names.begin());
+}
+
 ordered_json light_json(const LightResult& light, bool for_report) {
     ordered_json json{{"name", light.name},
-                      {"status", light.status},
+                      {"status", name_of(light.status)},
                       {"reason", light.reason},
                       {"samples", light.errors.samples},
                       {"error", errors_json(light.errors)},
@@ -185,7 +194,7 @@ ordered_json run_json(const RunResult& run, bool for_report) {
                       {"recipe", run.recipe},
                       {"overrides", run.overrides},
                       {"size", {run.width, run.height}},
-                      {"status", run.status},
+                      {"status", name_of(run.status)},
                       {"reason", run.reason},
                       {"samples", run.errors.samples},
                       {"error", errors_json(run.errors)},
@@ -209,13 +218,13 @@ RunResult run_from_json(const ordered_json& json) {
     run.overrides = json.at("overrides");
     run.width = json.at("size").at(0);
     run.height = json.at("size").at(1);
-    run.status = json.at("status");
+    run.status = status_from(json.at("status"));
     run.reason = json.at("reason");
     // The figures.
     run.errors = errors_from(json.at("error"), json.at("samples"));
     run.errors.weighted = weighted_from(json.at("weighted"));
     for (const ordered_json& light : json.at("lights")) {
-        run.lights.push_back({light.at("name"), light.at("status"), light.at("reason"),
+        run.lights.push_back({light.at("name"), status_from(light.at("status")), light.at("reason"),
                               errors_from(light.at("error"), light.at("samples")), light.at("error_map")});
         run.lights.back().errors.weighted = weighted_from(light.at("weighted"));
     }

@@ -67,15 +67,16 @@ struct Built {
     LayerTiles map_tiles, light_tiles;
 };
 
-bool asked(std::span<const std::string> names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+bool asked(std::span<const std::string> names, Hidden kind) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return find_hidden(name).kind == kind; });
 }
 
 /// Those of the names that the lookup tells beside V.
 std::vector<std::string_view> asked_sides(const Recipe& recipe, std::span<const std::string> names) {
     std::vector<std::string_view> sides;
     for (const HiddenPicture& picture : side_pictures()) {
-        if (!asked(names, picture.name)) {
+        if (std::find(names.begin(), names.end(), picture.name) == names.end()) {
             continue;
         }
         if (!tells(*recipe.lookup, picture.name)) {
@@ -114,13 +115,13 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     // The stages before the lookup, as in a frame.
     check_recipe(recipe, input.scene, input.light(), input.device);
     built.views = place_views(input, recipe);
-    if (asked(names, "map")) {
+    if (asked(names, Hidden::map)) {
         built.map = recipe.map->add_map(input, recipe, built.views);
         check_map_memory(input, recipe, built.map.texture());
         built.map_tiles = add_layer_tiles(input, built.map.texture());
         graph.keep(built.map_tiles.image);
     }
-    if (asked(names, "light-view")) {
+    if (asked(names, Hidden::light_view)) {
         built.light_tiles = add_layer_tiles(input, add_light_picture(input, recipe, built.views));
         graph.keep(built.light_tiles.image);
     }
@@ -136,16 +137,36 @@ Built build(FrameGraph& graph, SceneGpu& scene, const Camera& camera, const Reci
     return built;
 }
 
+Shown color_hidden(FrameGraph& graph, const Recipe& recipe, const Built& built, const HiddenPicture& picture) {
+    switch (picture.kind) {
+        case Hidden::view:
+            return color_choice(read_image(graph, built.figures.choice), shade_of(read_samples(graph, built.samples)),
+                                built.views);
+        case Hidden::texels: return color_texels(read_image(graph, built.figures.sizes));
+        case Hidden::bias: return color_bias(read_image(graph, built.figures.sizes));
+        case Hidden::map:
+            return color_map(read_image(graph, built.map_tiles.image), built.map_tiles, graph.desc(built.map.texture()),
+                             holds(recipe.map->gives, "depth"));
+        case Hidden::light_view: return color_light(read_image(graph, built.light_tiles.image), built.light_tiles);
+        case Hidden::side: break;
+    }
+    const auto side = std::find_if(built.sides.begin(), built.sides.end(),
+                                   [&](const Offer& offer) { return offer.name == picture.name; });
+    GN_CHECK(side != built.sides.end());
+    return color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes), picture.sentence);
+}
+
 }  // namespace
 
 std::span<const HiddenPicture> hidden_pictures() {
     static constexpr std::array<HiddenPicture, 5> pictures{{
-        {"view", "Which light view serves a pixel: the cascade or the face, by its index.", true},
-        {"texels", "Map texels along a pixel's side, in the direction that has fewest; below 1 they show as steps.",
+        {Hidden::view, "view", "Which light view serves a pixel: the cascade or the face, by its index.", true},
+        {Hidden::texels, "texels",
+         "Map texels along a pixel's side, in the direction that has fewest; below 1 they show as steps.", true},
+        {Hidden::bias, "bias", "Distance in metres that the bias moves a receiver before it is compared with the map.",
          true},
-        {"bias", "Distance in metres that the bias moves a receiver before it is compared with the map.", true},
-        {"map", "The map's contents: its layers side by side, its channels below each other.", false},
-        {"light-view", "What the light sees through each of its views, lit from the light.", false},
+        {Hidden::map, "map", "The map's contents: its layers side by side, its channels below each other.", false},
+        {Hidden::light_view, "light-view", "What the light sees through each of its views, lit from the light.", false},
     }};
     return pictures;
 }
@@ -156,7 +177,7 @@ std::span<const HiddenPicture> side_pictures() {
         for (const Part* part : all_parts()) {
             for (const Side& side : part->sides) {
                 if (std::none_of(found.begin(), found.end(), [&](const auto& p) { return p.name == side.name; })) {
-                    found.push_back({side.name, side.sentence, true});
+                    found.push_back({Hidden::side, side.name, side.sentence, true});
                 }
             }
         }
@@ -205,24 +226,7 @@ std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& ca
 
     std::vector<Shown> shown;
     for (const std::string& name : names) {
-        if (name == "view") {
-            const std::vector<float> shade = shade_of(read_samples(graph, built.samples));
-            shown.push_back(color_choice(read_image(graph, built.figures.choice), shade, built.views));
-        } else if (name == "texels") {
-            shown.push_back(color_texels(read_image(graph, built.figures.sizes)));
-        } else if (name == "bias") {
-            shown.push_back(color_bias(read_image(graph, built.figures.sizes)));
-        } else if (name == "map") {
-            shown.push_back(color_map(read_image(graph, built.map_tiles.image), built.map_tiles,
-                                      graph.desc(built.map.texture()), holds(recipe.map->gives, "depth")));
-        } else if (const auto side = std::find_if(built.sides.begin(), built.sides.end(),
-                                                  [&](const Offer& offer) { return offer.name == name; });
-                   side != built.sides.end()) {
-            shown.push_back(color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes),
-                                       find_hidden(name).sentence));
-        } else {
-            shown.push_back(color_light(read_image(graph, built.light_tiles.image), built.light_tiles));
-        }
+        shown.push_back(color_hidden(graph, recipe, built, find_hidden(name)));
         shown.back().name = name;
     }
     return shown;

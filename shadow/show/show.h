@@ -7,7 +7,9 @@
 
 namespace gn {
 
+enum class Hidden { view, texels, bias, map, light_view, side };
 struct HiddenPicture {
+    Hidden kind = Hidden::view;
     std::string_view name, sentence;
     bool of_view = true;  ///< as large as the view, pixel by pixel; else layers of the map side by side
 };
