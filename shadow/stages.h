@@ -13,6 +13,7 @@
 #include "shadow/scene/scene.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -212,9 +213,9 @@ struct LightViews {
     std::uint32_t resolution = 1024;  ///< texels along a side of every layer
     std::uint32_t layers = 1;
     const Part* part = nullptr;          ///< its GLSL chooses the view of a receiver
-    std::array<vec4, 16> data{};         ///< what the part's GLSL choice function is given (GnPlacementData)
+    std::array<std::byte, 256> data{};   ///< what the part's GLSL choice function is given: set_data of Part::data_type
     BufferHandle buffer;                 ///< GnLightView[] where the placement makes its views on the GPU; else invalid
-    BufferHandle data_buffer;            ///< GnPlacementData likewise
+    BufferHandle data_buffer;            ///< the same where it is made on the GPU
     std::vector<Offer> offers;           ///< further arguments of that function, in order
     std::vector<PlacementTable> tables;  ///< what it may ask besides
     /// Layers and rectangles, too, are known to `buffer` alone: whole texels, apart from each other. Of views that do not
@@ -226,6 +227,19 @@ struct LightViews {
     bool crosses = false;           ///< kernels may leave a view's rectangle, and go on in the view that serves the tap
     bool layered = false;           ///< one pass draws all views, each a whole layer of its own
     std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything
+
+    template <class Data>
+    void set_data(const Data& given) {
+        static_assert(sizeof(Data) <= sizeof data && std::is_trivially_copyable_v<Data>);
+        std::memcpy(data.data(), &given, sizeof given);
+    }
+    template <class Data>
+    [[nodiscard]] Data data_as() const {
+        static_assert(sizeof(Data) <= sizeof data && std::is_trivially_copyable_v<Data>);
+        Data given;
+        std::memcpy(&given, data.data(), sizeof given);
+        return given;
+    }
 };
 
 /// map: what a texel stores.

@@ -57,7 +57,7 @@ Rendered render(SceneGpu& gpu, const Camera& camera, const Camera& placed_by, co
         copy_bytes(graph.download(map.texture(), 0, layer), texels);
         result.map.insert(result.map.end(), texels.begin(), texels.end());
     }
-    std::copy(views.data.begin(), views.data.end(), result.data.values);
+    result.data = views.data_as<GnCascadesData>();
     if (views.buffer.valid()) {
         copy_bytes(graph.download(views.buffer), result.views);
         const std::vector<std::byte> data = graph.download(views.data_buffer);

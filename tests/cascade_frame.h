@@ -22,7 +22,7 @@ struct Rendered {
     std::vector<float> visibility, map;
     std::vector<GnLightView> views;
     std::vector<std::vector<std::uint32_t>> casters;
-    glsl::GnPlacementData data{};
+    GnCascadesData data;
     CpuSamples samples;
 };
 

@@ -25,8 +25,7 @@ enum class Pairs { all, one_texel };
 /// Drops the pairs that are two points to the map: farther apart than a small part of the texels that serve them. In a
 /// grazing view a pixel's width is many texels, and a map that never changes then differs from one sample to the next.
 void keep_one_texel(std::vector<int>& same, const CpuSamples& from, const CpuSamples& to, const LightViews& views) {
-    glsl::GnPlacementData data{};
-    std::copy(views.data.begin(), views.data.end(), data.values);
+    const auto data = views.data_as<GnCascadesData>();
     for (std::size_t i = 0; i < same.size(); ++i) {
         if (same[i] < 0) {
             continue;

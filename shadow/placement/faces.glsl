@@ -9,6 +9,11 @@
 namespace gn::glsl {
 #endif
 
+// What the choice of a face is given.
+struct GnFacesData {
+    vec4 eye_ws GN_DEFAULT(vec4(0.0f));  // the light's place; w = 1 where the views are the six faces around it
+};
+
 GN_FN int gn_face_of(vec3 d_ws) {
     vec3 a = vec3(abs(d_ws.x), abs(d_ws.y), abs(d_ws.z));
     if (a.x >= a.y && a.x >= a.z) {

@@ -24,7 +24,7 @@ void main() {
         views[i] = view;
         layers = max(layers, view.layer + 1);
     }
-    placement = GnPlacementData(values);
+    placement = values;
     count = uint(u.there);
     needed = uint(layers);
 }
@@ -85,9 +85,9 @@ LightViews place_on_gpu(const FrameInput& input, const Recipe& recipe) {
     inputs.block("readonly buffer", "Seeds", "GnLightView seeds[];", std::as_bytes(std::span(stripped)));
     inputs.block("readonly buffer", "Texels", "ivec4 texels[];", std::as_bytes(std::span(texels)));
     inputs.block("readonly buffer", "Layers", "int layer[];", std::as_bytes(std::span(layers)));
-    inputs.block("readonly buffer", "Values", "vec4 values[16];", std::as_bytes(std::span(seeds.data)));
+    inputs.block("readonly buffer", "Values", "vec4 values[16];", seeds.data);
     inputs.buffer("writeonly buffer", "Views", "GnLightView views[];", views.buffer);
-    inputs.buffer("writeonly buffer", "Placement", "GnPlacementData placement;", views.data_buffer);
+    inputs.buffer("writeonly buffer", "Placement", "vec4 placement[16];", views.data_buffer);
     inputs.buffer("writeonly buffer", "Count", "uint count;", count);
     inputs.buffer("writeonly buffer", "Needed", "uint needed;", needed);
     inputs.constant("int", "most", static_cast<int>(most));

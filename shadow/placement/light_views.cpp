@@ -5,6 +5,7 @@
 #include "shadow/placement/light_views.h"
 
 #include "shadow/geometry/potential_receivers.h"
+#include "shadow/placement/faces.glsl"
 
 #include <algorithm>
 
@@ -238,7 +239,7 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Guard& gua
         views.views.back().layer = static_cast<int>(views.views.size()) - 1;
     }
     views.layers = 6;
-    views.data[0] = vec4(eye_ws, 1);
+    views.set_data(glsl::GnFacesData{vec4(eye_ws, 1)});
 }
 
 double near_plane(double far) {

@@ -29,8 +29,7 @@ const GnLightView& view_at(const LightViews& views, double depth) {
     if (views.views.size() == 1) {
         return views.views.front();
     }
-    glsl::GnPlacementData data{};
-    std::copy(views.data.begin(), views.data.end(), data.values);
+    const auto data = views.data_as<GnCascadesData>();
     glsl::GnReceiver receiver{};
     receiver.view_depth = static_cast<float>(depth);
     return views.views[static_cast<std::size_t>(glsl::gn_cascades_choose(receiver, data).first)];

@@ -88,9 +88,9 @@ struct GnChoice {
     float weight;
 };
 
-// What a placement computes for its choice function, packed as it likes.
+// What the choice function of a placement is given that has nothing to tell it; others have a type of their own.
 struct GnPlacementData {
-    vec4 values[16];
+    vec4 nothing;
 };
 
 // Smallest depth difference that is not rounding: the rasterizer interpolates a 24-bit significand.

@@ -40,6 +40,16 @@ std::string lent_name(std::string_view name) {
     return "placement_" + identifier(name);
 }
 
+/// What the placement's choice is given.
+void add_placement_data(ShaderInputs& inputs, const LightViews& views) {
+    const std::string member = fmt::format("{} placement;", views.part->data_type);
+    if (views.data_buffer.valid()) {
+        inputs.buffer("uniform", "Placement", member, views.data_buffer);
+    } else {
+        inputs.block("uniform", "Placement", member, views.data);
+    }
+}
+
 /// What the placement offers, and its tables.
 void add_lent(ShaderInputs& inputs, const LightViews& views) {
     for (const Offer& offer : views.offers) {
@@ -85,11 +95,6 @@ GnBias applied_bias(const FrameInput& input, const Recipe& recipe) {
 void add_views(ShaderInputs& inputs, const LightViews& views) {
     add_view_block(inputs, views, as_uniform(views) ? "uniform" : "readonly buffer",
                    as_uniform(views) ? "GnLightView views[GN_VIEW_COUNT];" : "GnLightView views[];");
-    if (views.data_buffer.valid()) {
-        inputs.buffer("uniform", "Placement", "GnPlacementData placement;", views.data_buffer);
-    } else {
-        inputs.block("uniform", "Placement", "GnPlacementData placement;", std::as_bytes(std::span(views.data)));
-    }
 }
 
 ShaderInputs view_list(const LightViews& views) {
@@ -102,6 +107,7 @@ ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const 
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
     add_views(inputs, views);
+    add_placement_data(inputs, views);
     add_lent(inputs, views);
     inputs.constant("GnViewConstants", "view", input.samples.constants);
     inputs.constant("GnLight", "light", input.light().shape);

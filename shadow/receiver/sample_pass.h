@@ -18,14 +18,13 @@ std::string receiver_defines(const Recipe& recipe, const LightViews& views);
 GnBias applied_bias(const Recipe& recipe, const Light& light, const Box& bounds_ws);
 GnBias applied_bias(const FrameInput& input, const Recipe& recipe);
 
-/// Adds the blocks `Views` (GnLightView[], in declarations that count them GN_VIEW_COUNT of receiver_defines) and `Placement`
-/// (GnPlacementData).
+/// Adds the block `Views` (GnLightView[], in declarations that count them GN_VIEW_COUNT of receiver_defines).
 void add_views(ShaderInputs& inputs, const LightViews& views);
 /// The block `Views` alone, a list of any length in every stage: what draws into views begins its inputs with. Its type stands
 /// in shadow/light_view.h.
 ShaderInputs view_list(const LightViews& views);
 
-/// The G-buffer's positions and normals, the blocks `Views` and `Placement`, the placement's offers and tables, and the constants u.view, u.light and u.bias.
+/// The G-buffer's positions and normals, the blocks `Views` and `Placement` (the placement's data_type), its offers and tables, and the constants u.view, u.light and u.bias.
 /// Their types stand in shadow/view/view.glsl.
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 

@@ -27,7 +27,7 @@ inline constexpr LightKinds all_lights{true, true, true, true};
 //
 //   light       float gn_<id>_weight(GnLight light, GnLight one, vec3 p_ws, ivec2 pixel, int index, int count, Params):
 //               what V of light `index` of `count`, `one`, weighs at a receiver; at least 0
-//   placement   GnChoice gn_<id>_choose(GnReceiver, GnPlacementData, sampler2DArray for each of LightViews::offers); it declares
+//   placement   GnChoice gn_<id>_choose(GnReceiver, <data_type>, sampler2DArray for each of LightViews::offers); it declares
 //               `TYPE gn_<id>_<name>(int i);` of each of LightViews::tables, which the pass defines
 //   lookup      float (vec3 where `channels` is 3) gn_<id>_visibility(GnLookup, sampler2DArray for each texture of `needs` and `optional`, Params)
 //               float gn_<id>_<side>(the same) for each of `sides`
@@ -78,7 +78,9 @@ class Part {
     bool filterable = false;  ///< map: its own GLSL answers for a footprint
     /// map: which of them its own GLSL reads, in order. One that a recipe leaves out is replaced as `optional` ones are.
     std::vector<std::string_view> textures;
-    LightKinds stands_in_for{};                ///< placement: lights that get it where none that serves them is named
+    LightKinds stands_in_for{};  ///< placement: lights that get it where none that serves them is named
+    /// placement: GLSL and C++ name of the struct that its choice function is given (LightViews::data); this one holds nothing.
+    std::string_view data_type = "GnPlacementData";
     bool from_centre = false;                  ///< placement: sees a spot's cone from the middle of the spot alone
     bool bends = false;                        ///< placement: straight edges are not straight on its maps
     std::vector<std::string_view> view_names;  ///< placement: what its views are called, in order; empty: by number
@@ -129,6 +131,8 @@ std::vector<std::string_view> words_read(const Part& lookup);
 /// What the recipe's lookup needs of its map with the recipe's parameters, as its GLSL takes it.
 std::vector<std::string_view> needs_of(const Recipe& recipe);
 std::vector<std::string_view> words_given(const Part& map);
+/// Whether a map gives what a lookup names, itself or made of what it gives (shadow/map/derivations.cpp).
+bool map_gives(const Part& map, std::string_view need);
 /// Whether a list of names holds one.
 bool holds(std::span<const std::string_view> names, std::string_view name);
 

@@ -3,6 +3,7 @@
 // light, map and taps, written as briefly as such renderers write it: one matrix, one constant bias, no mask. What its
 // shadow adds is its pass shadowed minus its pass unshadowed; beside it stands the floor, a pass that reads the view's
 // depth and writes V and nothing else.
+#include "shadow/placement/cascades/cascades.h"
 #include "shadow/placement/place.h"
 #include "tests/performance/bench.h"
 
@@ -98,10 +99,11 @@ RasterDesc pipeline(const Peer& peer, Kernel kernel, std::size_t views, std::uin
 
 std::vector<std::byte> constants_of(const Camera& camera, const GnLight& light, const LightViews& views) {
     const bool sun = light.kind == GN_LIGHT_DIRECTIONAL;
+    const auto& ends = views.data_as<GnCascadesData>().ends;  // nothing reads them where no placement has cascades
     const Constants constants{
         sun ? vec4(-vec3(light.direction_ws), 0) : vec4(vec3(light.position_ws), 1),
         vec4(camera.forward_ws, -glm::dot(camera.forward_ws, camera.position_ws)),
-        views.data[1],  // where a placement has cascades, their ends; else nothing reads it
+        vec4(ends[0], ends[1], ends[2], 0),
     };
     std::vector<std::byte> bytes(sizeof constants + views.views.size() * sizeof(GnLightView));
     std::memcpy(bytes.data(), &constants, sizeof constants);

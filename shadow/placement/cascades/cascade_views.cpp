@@ -159,25 +159,27 @@ std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& vie
     return casters;
 }
 
-std::array<vec4, 16> pack(const GnCascadesParams& params, Interval range, const LightFrame& frame,
-                          std::span<const GnLightView> views, Guard guard) {
-    std::array<vec4, 16> data{};
-    const float limit = views.empty() ? 1.0F : 1.0F - 2.0F * std::min(0.4F, guard.texels / views[0].resolution);
-    data[0] = vec4(params.count, params.transition, params.select, params.width);
-    data[3] = vec4(static_cast<float>(range.near), limit, 0, 0);
-    data[4] = vec4(vec3(frame.x), 0);
-    data[5] = vec4(vec3(frame.y), 0);
-    for (int i = 0; i < static_cast<int>(views.size()); ++i) {
-        data[1 + static_cast<unsigned>(i) / 4][i % 4] =
-            glsl::gn_cascades_split(params, static_cast<float>(range.near), static_cast<float>(range.far), i + 1);
+GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const LightFrame& frame,
+                           std::span<const GnLightView> views, Guard guard) {
+    GnCascadesData data{.count = params.count,
+                        .transition = params.transition,
+                        .select = params.select,
+                        .width = params.width,
+                        .near = static_cast<float>(range.near)};
+    data.limit = views.empty() ? 1.0F : 1.0F - 2.0F * std::min(0.4F, guard.texels / views[0].resolution);
+    data.x_ws = vec4(vec3(frame.x), 0);
+    data.y_ws = vec4(vec3(frame.y), 0);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        data.ends[i] = glsl::gn_cascades_split(params, static_cast<float>(range.near), static_cast<float>(range.far),
+                                               static_cast<int>(i) + 1);
 
         // u = scale (c x + s y) + offset, v likewise a quarter turn further.
-        const dvec4 u = row_of(views[static_cast<std::size_t>(i)].cs_from_ws, 0);
-        const dvec4 v = row_of(views[static_cast<std::size_t>(i)].cs_from_ws, 1);
+        const dvec4 u = row_of(views[i].cs_from_ws, 0);
+        const dvec4 v = row_of(views[i].cs_from_ws, 1);
         const double angle = std::atan2(glm::dot(dvec3(u), frame.y), glm::dot(dvec3(u), frame.x));
         const dvec3 turned = std::cos(angle) * frame.y - std::sin(angle) * frame.x;
-        data[6 + static_cast<unsigned>(i)] = vec4(dvec4(glm::length(dvec3(u)), glm::dot(dvec3(v), turned), u.w, v.w));
-        data[14 + static_cast<unsigned>(i) / 4][i % 4] = static_cast<float>(angle);
+        data.fits[i] = vec4(dvec4(glm::length(dvec3(u)), glm::dot(dvec3(v), turned), u.w, v.w));
+        data.angles[i] = static_cast<float>(angle);
     }
     return data;
 }

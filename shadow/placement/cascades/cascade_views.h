@@ -89,9 +89,9 @@ GnLightView loose_view(const Grid& grid, dvec3 centre_ws);
 /// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
 std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view);
 
-/// What the choice function reads; see cascades.glsl.
-std::array<vec4, 16> pack(const GnCascadesParams& params, Interval range, const LightFrame& frame,
-                          std::span<const GnLightView> views, Guard guard);
+/// What the choice function is given.
+GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const LightFrame& frame,
+                           std::span<const GnLightView> views, Guard guard);
 
 /// SDSM: splits and views made on the GPU from the view samples of this frame.
 LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params);

@@ -137,8 +137,8 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     for (const GnLightView& view : views.views) {
         views.casters.push_back(casters_of(input.scene, view));
     }
-    views.data =
-        pack(params, range, facing(input.samples.camera, input.light().shape), views.views, guard_of(input, recipe));
+    views.set_data(choice_data(params, range, facing(input.samples.camera, input.light().shape), views.views,
+                               guard_of(input, recipe)));
     return views;
 }
 
@@ -240,6 +240,7 @@ const Part& placement_cascades() {
         p.lights = {.directional = true};
         p.params = rows();
         p.params_type = "GnCascadesParams";
+        p.data_type = "GnCascadesData";
         p.glsl = "shadow/placement/cascades/cascades.glsl";
         p.place = place_cascades;
         p.prologue = known_cascades;

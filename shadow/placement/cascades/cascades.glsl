@@ -16,13 +16,13 @@
 //   #define GN_CASCADES_SELECT 0
 //   #define GN_CASCADES_TRANSITION 1
 #if defined(__cplusplus) || !defined(GN_CASCADES_COUNT)
-#define GN_CASCADES_COUNT int(data.values[0].x)
+#define GN_CASCADES_COUNT data.count
 #endif
 #if defined(__cplusplus) || !defined(GN_CASCADES_SELECT)
-#define GN_CASCADES_SELECT int(data.values[0].z)
+#define GN_CASCADES_SELECT data.select
 #endif
 #if defined(__cplusplus) || !defined(GN_CASCADES_TRANSITION)
-#define GN_CASCADES_TRANSITION int(data.values[0].y)
+#define GN_CASCADES_TRANSITION data.transition
 #endif
 
 #ifdef __cplusplus
@@ -66,19 +66,12 @@ GN_FN float gn_cascades_split(GnCascadesParams params, float near, float far, in
     return gn_cascades_log(near, far, t);
 }
 
-// What the placement packs into GnPlacementData:
-//   [0] count, transition, select, width       [1..2] ends of cascades 1 to 8     [3] near, limit in clip units, 0, 0
-//   [4..5] the light's axes x and y, 0          [6..13] per cascade: scale u, v and offset u, v in clip units
-//   [14..15] per cascade: angle of u in the plane of the axes
-GN_FN float gn_cascades_of8(vec4 low, vec4 high, int i) { return i < 4 ? low[i] : high[i - 4]; }
-
 // Position of p in cascade i, in clip units: its largest coordinate, 1 at the border.
-GN_FN float gn_cascades_border(GnPlacementData data, int i, vec3 p_ws) {
-    vec2 p_ls = vec2(dot(vec3(data.values[4]), p_ws), dot(vec3(data.values[5]), p_ws));
-    float angle = gn_cascades_of8(data.values[14], data.values[15], i);
-    float c = cos(angle);
-    float s = sin(angle);
-    vec4 fit = data.values[6 + i];
+GN_FN float gn_cascades_border(GnCascadesData data, int i, vec3 p_ws) {
+    vec2 p_ls = vec2(dot(vec3(data.x_ws), p_ws), dot(vec3(data.y_ws), p_ws));
+    float c = cos(data.angles[i]);
+    float s = sin(data.angles[i]);
+    vec4 fit = data.fits[i];
     return max(abs(fit.x * (c * p_ls.x + s * p_ls.y) + fit.z), abs(fit.y * (c * p_ls.y - s * p_ls.x) + fit.w));
 }
 
@@ -106,15 +99,15 @@ struct GnCascadesPlace {
 
 // The loops run over all cascades that there can be, so that they unroll and no index into `data` is computed: an array
 // that is indexed by a variable is copied for every pixel.
-GN_FN GnCascadesPlace gn_cascades_by_distance(GnPlacementData data, int count, float view_depth) {
+GN_FN GnCascadesPlace gn_cascades_by_distance(GnCascadesData data, int count, float view_depth) {
     int i = 0;
-    float start = data.values[3].x;
-    float end = data.values[1].x;
+    float start = data.near;
+    float end = data.ends[0];
     for (int k = 1; k < GN_CASCADES_MOST; ++k) {
         if (k < count && view_depth > end) {
             i = k;
             start = end;
-            end = gn_cascades_of8(data.values[1], data.values[2], k);
+            end = data.ends[k];
         }
     }
     GnCascadesPlace place;
@@ -124,8 +117,8 @@ GN_FN GnCascadesPlace gn_cascades_by_distance(GnPlacementData data, int count, f
 }
 
 // The first cascade that holds the receiver and its kernel has the finest texels.
-GN_FN GnCascadesPlace gn_cascades_by_projection(GnPlacementData data, int count, vec3 p_ws) {
-    float limit = data.values[3].y;
+GN_FN GnCascadesPlace gn_cascades_by_projection(GnCascadesData data, int count, vec3 p_ws) {
+    float limit = data.limit;
     int i = 0;
     float position = gn_cascades_border(data, 0, p_ws) / limit;
     float beyond = 0.0f;
@@ -146,7 +139,7 @@ GN_FN GnCascadesPlace gn_cascades_by_projection(GnPlacementData data, int count,
     return place;
 }
 
-GN_FN GnChoice gn_cascades_choose(GnReceiver receiver, GnPlacementData data) {
+GN_FN GnChoice gn_cascades_choose(GnReceiver receiver, GnCascadesData data) {
     int count = GN_CASCADES_COUNT;
     GnCascadesPlace place;
     if (GN_CASCADES_SELECT == GN_SELECT_PROJECTION) {
@@ -154,7 +147,7 @@ GN_FN GnChoice gn_cascades_choose(GnReceiver receiver, GnPlacementData data) {
     } else {
         place = gn_cascades_by_distance(data, count, receiver.view_depth);
     }
-    float weight = place.cascade + 1 < count ? gn_cascades_band(place.position, data.values[0].w) : 0.0f;
+    float weight = place.cascade + 1 < count ? gn_cascades_band(place.position, data.width) : 0.0f;
     return gn_cascades_transition(place.cascade, weight, GN_CASCADES_TRANSITION, receiver.p_ss);
 }
 

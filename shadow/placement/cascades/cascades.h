@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of cascaded shadow maps.
+// Parameters of cascaded shadow maps, and what their choice is given.
 #ifndef GN_SHADOW_PLACEMENT_CASCADES_H
 #define GN_SHADOW_PLACEMENT_CASCADES_H
 
@@ -29,6 +29,21 @@
 #define GN_PASSES_AUTO 0
 #define GN_PASSES_LAYERED 1
 #define GN_PASSES_SEPARATE 2
+
+/// What the choice of a cascade is given.
+struct GnCascadesData {
+    int count GN_DEFAULT(0);
+    int transition GN_DEFAULT(0);
+    int select GN_DEFAULT(0);
+    float width GN_DEFAULT(0.0f);                 ///< as in the parameters
+    float near GN_DEFAULT(0.0f);                  ///< metres along the view, where the first begins
+    float ends[GN_CASCADES_MOST] GN_DEFAULT({});  ///< where each ends
+    float limit GN_DEFAULT(0.0f);                 ///< clip units up to which a view holds a receiver and its kernel
+    vec4 x_ws GN_DEFAULT(vec4(0));                ///< the light's axes, w = 0
+    vec4 y_ws GN_DEFAULT(vec4(0));
+    vec4 fits[GN_CASCADES_MOST] GN_DEFAULT({});     ///< of each: scale u, v and offset u, v in clip units
+    float angles[GN_CASCADES_MOST] GN_DEFAULT({});  ///< of each u, in the plane of the axes; radians
+};
 
 struct GnCascadesParams {
     int count GN_DEFAULT(4);

@@ -73,15 +73,12 @@ TEST(CascadeSplits, EndsRiseForEveryScheme) {
 }
 
 /// Three slices, ending at 10, 20 and 40 m.
-glsl::GnPlacementData choice_data(int transition, float width) {
-    glsl::GnPlacementData data{};
-    data.values[0] = vec4(3, transition, GN_SELECT_DISTANCE, width);
-    data.values[1] = vec4(10, 20, 40, 0);
-    return data;
+GnCascadesData three_slices(int transition, float width) {
+    return {.count = 3, .transition = transition, .select = GN_SELECT_DISTANCE, .width = width, .ends = {10, 20, 40}};
 }
 
 TEST(CascadeChoice, FollowsTheDistance) {
-    const auto data = choice_data(GN_TRANSITION_NONE, 0.2F);
+    const auto data = three_slices(GN_TRANSITION_NONE, 0.2F);
     EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(0.1F), data).first, 0);
     EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(10.01F), data).first, 1);
     EXPECT_EQ(glsl::gn_cascades_choose(receiver_at(39.9F), data).first, 2);
@@ -90,7 +87,7 @@ TEST(CascadeChoice, FollowsTheDistance) {
 }
 
 TEST(CascadeChoice, BlendRunsFromZeroToOneInTheBandAndNowhereElse) {
-    const auto data = choice_data(GN_TRANSITION_BLEND, 0.2F);
+    const auto data = three_slices(GN_TRANSITION_BLEND, 0.2F);
     float before = 0;
     for (float z = 0.05F; z < 60; z += 0.05F) {
         const GnChoice choice = glsl::gn_cascades_choose(receiver_at(z), data);
@@ -111,7 +108,7 @@ TEST(CascadeChoice, BlendRunsFromZeroToOneInTheBandAndNowhereElse) {
 }
 
 TEST(CascadeChoice, DitherTakesTheNextSliceAsOftenAsBlendWeighsIt) {
-    const auto data = choice_data(GN_TRANSITION_DITHER, 0.2F);
+    const auto data = three_slices(GN_TRANSITION_DITHER, 0.2F);
     for (const float z : {8.5F, 9.0F, 9.5F}) {
         double next = 0;
         for (int y = 0; y < 64; ++y) {
@@ -151,9 +148,7 @@ TEST(CascadeData, PackedPositionsAreTheViewsOwn) {
         views.push_back(plain_view(body_of(camera, 1.5F, 0.1, far), facing(camera, light), 512, {}));
     }
     const GnCascadesParams params{.count = 4};
-    const auto packed = pack(params, {0.1, 20}, facing(camera, light), views, {.texels = 2});
-    glsl::GnPlacementData data{};
-    std::copy(packed.begin(), packed.end(), data.values);
+    const GnCascadesData data = choice_data(params, {0.1, 20}, facing(camera, light), views, {.texels = 2});
     for (int i = 0; i < 4; ++i) {
         for (const vec3 p_ws : {vec3(1, 0, 0), vec3(-2, 1, -9), vec3(4, 3, 2)}) {
             const vec4 p_cs = views[static_cast<std::size_t>(i)].cs_from_ws * vec4(p_ws, 1);

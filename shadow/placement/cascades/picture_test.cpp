@@ -99,10 +99,9 @@ struct Seam {
 Seam seam_of(const Scene& scene, const std::string& recipe) {
     const ComparisonOptions options{.width = 480, .height = 270, .samples = 1};
     const auto c = compare(scene, recipe, options);
-    glsl::GnPlacementData data{};
     const LightViews views = place(scene, recipe, options.width, options.height);
-    std::copy(views.data.begin(), views.data.end(), data.values);
-    data.values[0].y = GN_TRANSITION_NONE;
+    auto data = views.data_as<GnCascadesData>();
+    data.transition = GN_TRANSITION_NONE;
     const auto cascade = [&](std::size_t pixel) {
         return glsl::gn_cascades_choose(receiver_at(c.frame.samples.normal_ws[pixel].w), data).first;
     };

@@ -121,7 +121,7 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
     // The views around them.
     ShaderInputs made;
     made.buffer("writeonly buffer", "Views", "GnLightView views[];", views.buffer);
-    made.buffer("writeonly buffer", "Placement", "GnPlacementData placement;", views.data_buffer);
+    made.buffer("writeonly buffer", "Placement", "GnCascadesData placement;", views.data_buffer);
     add_pass(input, constants, reduction, {"sdsm views", "views", uvec2(1), made});
     return views;
 }

@@ -41,10 +41,14 @@ vec2 half_sides(int i, int turn, float share) {
 void main() {
     int count = u.params.count;
     float share = min(0.4, u.guard_texels / u.resolution);
-    placement.values[0] = vec4(count, u.params.transition, u.params.select, u.params.width);
-    placement.values[3] = vec4(r.ends[0], 1.0 - 2.0 * share, 0.0, 0.0);
-    placement.values[4] = vec4(u.x_ws.xyz, 0.0);
-    placement.values[5] = vec4(u.y_ws.xyz, 0.0);
+    placement.count = count;
+    placement.transition = u.params.transition;
+    placement.select = u.params.select;
+    placement.width = u.params.width;
+    placement.near = r.ends[0];
+    placement.limit = 1.0 - 2.0 * share;
+    placement.x_ws = vec4(u.x_ws.xyz, 0.0);
+    placement.y_ws = vec4(u.y_ws.xyz, 0.0);
     for (int i = 0; i < count; ++i) {
         // The turn of least area.
         int turn = 0;
@@ -85,8 +89,8 @@ void main() {
         view.paraboloid = 0.0;
         views[i] = view;
 
-        placement.values[1 + i / 4][i % 4] = r.ends[i + 1];
-        placement.values[6 + i] = vec4(1.0 / h.x, 1.0 / h.y, view.cs_from_ws[3][0], view.cs_from_ws[3][1]);
-        placement.values[14 + i / 4][i % 4] = atan(c.y, c.x);
+        placement.ends[i] = r.ends[i + 1];
+        placement.fits[i] = vec4(1.0 / h.x, 1.0 / h.y, view.cs_from_ws[3][0], view.cs_from_ws[3][1]);
+        placement.angles[i] = atan(c.y, c.x);
     }
 }

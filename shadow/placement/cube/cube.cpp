@@ -212,6 +212,7 @@ const Part& placement_cube() {
                 "guard", "cross"),
         });
         p.params_type = "GnCubeParams";
+        p.data_type = "GnFacesData";
         p.glsl = "shadow/placement/cube/cube.glsl";
         p.place = place_cube;
         p.remark = remark_cube;

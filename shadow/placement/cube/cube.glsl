@@ -6,10 +6,9 @@
 
 #include "shadow/placement/faces.glsl"
 
-// data.values[0].xyz: the light's position. Each face's view is wider than 90 degrees, so that a kernel at its border
-// still reads its own face: no seam.
-GN_FN GnChoice gn_cube_choose(GnReceiver receiver, GnPlacementData data) {
-    return gn_only(gn_face_of(receiver.p_ws - vec3(data.values[0])));
+// Each face's view is wider than 90 degrees, so that a kernel at its border still reads its own face: no seam.
+GN_FN GnChoice gn_cube_choose(GnReceiver receiver, GnFacesData data) {
+    return gn_only(gn_face_of(receiver.p_ws - vec3(data.eye_ws)));
 }
 
 #endif

@@ -48,6 +48,7 @@ const Part& placement_fit() {
         p.citation = "BAS02b";
         // It refuses an environment by name.
         p.stands_in_for = {.directional = true, .spot = true, .rectangle = true, .environment = true};
+        p.data_type = "GnFacesData";
         p.glsl = "shadow/placement/fit/fit.glsl";
         p.place = place_fit;
         return p;

@@ -46,6 +46,7 @@ const Part& placement_lispsm() {
                      "ends, 1 favours the nearest receivers as perspective shadow maps do."),
         });
         p.params_type = "GnLispsmParams";
+        p.data_type = "GnFacesData";
         p.glsl = "shadow/placement/lispsm/lispsm.glsl";
         p.place = place_lispsm;
         return p;

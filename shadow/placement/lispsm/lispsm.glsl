@@ -6,9 +6,8 @@
 
 #include "shadow/placement/faces.glsl"
 
-// data.values[0]: the light's position; w = 1 when the views are a cube's.
-GN_FN GnChoice gn_lispsm_choose(GnReceiver receiver, GnPlacementData data) {
-    return gn_only(data.values[0].w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.values[0])) : 0);
+GN_FN GnChoice gn_lispsm_choose(GnReceiver receiver, GnFacesData data) {
+    return gn_only(data.eye_ws.w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.eye_ws)) : 0);
 }
 
 #endif

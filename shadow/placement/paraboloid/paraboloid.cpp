@@ -4,6 +4,8 @@
 // Based on: Brabec, Annen, Seidel. Shadow Mapping for Hemispherical and Omnidirectional Light Sources. CGI 2002. [BAS02]
 // Departs from it: texels are drawn by their own rays, so that edges are curved as they must be and no mesh needs
 // tessellation; each map reaches beyond its hemisphere by the kernels' reach.
+#include "shadow/placement/paraboloid/paraboloid.h"
+
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/recipe/guard.h"
 
@@ -49,8 +51,7 @@ LightViews place_paraboloid(const FrameInput& input, const Recipe& recipe) {
         views.views.back().layer = 1;
     }
     views.layers = all_around ? 2 : 1;
-    views.data[0] = vec4(eye_ws, all_around ? 1 : 0);
-    views.data[1] = vec4(axis_ws, 0);
+    views.set_data(GnParaboloidData{vec4(eye_ws, all_around ? 1 : 0), vec4(axis_ws, 0)});
     return views;
 }
 
@@ -67,6 +68,7 @@ const Part& placement_paraboloid() {
         p.citation = "BAS02";
         p.lights = {.spot = true, .point = true, .rectangle = true};
         p.bends = true;
+        p.data_type = "GnParaboloidData";
         p.glsl = "shadow/placement/paraboloid/paraboloid.glsl";
         p.place = place_paraboloid;
         return p;

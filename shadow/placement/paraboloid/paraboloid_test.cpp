@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Laws of the mirror on the CPU, and its pictures against traced truth and against a cube's.
+#include "shadow/placement/paraboloid/paraboloid.h"
 #include "shadow/receiver/paraboloid.glsl"
 #include "shadow/recipe/guard.h"
 
@@ -185,7 +186,8 @@ TEST(Paraboloid, BothHemispheresHoldTheirKernels) {
     Directions direction;
     for (int i = 0; i < 2000; ++i) {
         const vec3 d_ws = direction();
-        const GnLightView& view = views.views[glm::dot(d_ws, vec3(views.data[1])) < 0 ? 1 : 0];
+        const GnLightView& view =
+            views.views[glm::dot(d_ws, vec3(views.data_as<GnParaboloidData>().axis_ws)) < 0 ? 1 : 0];
         glsl::GnReceiver receiver{};
         receiver.p_ws = vec3(view.eye_ws) + 4.0F * d_ws;
         receiver.n_ws = -d_ws;

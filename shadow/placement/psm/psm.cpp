@@ -40,6 +40,7 @@ const Part& placement_psm() {
                      "nearly all of the map on the nearest receivers."),
         });
         p.params_type = "GnPsmParams";
+        p.data_type = "GnFacesData";
         p.glsl = "shadow/placement/psm/psm.glsl";
         p.place = place_psm;
         return p;

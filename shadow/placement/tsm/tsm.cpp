@@ -55,6 +55,7 @@ const Part& placement_tsm() {
                      "How much of the map the focus region gets; more leaves distant receivers fewer texels."),
         });
         p.params_type = "GnTsmParams";
+        p.data_type = "GnFacesData";
         p.glsl = "shadow/placement/tsm/tsm.glsl";
         p.place = place_tsm;
         return p;
