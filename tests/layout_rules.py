@@ -177,6 +177,24 @@ def parts_are_strangers(tree):
     return complaints
 
 
+def stages_are_strangers(tree):
+    """No stage leans on another, and no room on a stage: what two need stands in a room. `// Stands on:` names exceptions."""
+    complaints = []
+    stages = STAGES + ("shading",)
+    for name in (file for file in tree.having(SOURCES, "shadow/") if not is_test(file)):
+        own = name.split("/")[1]
+        if own not in stages + ("receiver", "casters", "geometry", "recipe"):
+            continue
+        stands_on = re.findall(r"^Stands on: (.*)$", head_of(tree.text(name)), re.M)
+        for include in includes_of(tree, name):
+            pieces = include.split("/")
+            if pieces[0] != "shadow" or len(pieces) != 3 or pieces[1] == own or pieces[1] not in stages:
+                continue
+            if not any(include.rsplit(".", 1)[0] in line for line in stands_on):
+                complaints.append(f"{name}: includes {include} of another stage; what both need belongs into a room")
+    return complaints
+
+
 def includes_resolve(tree):
     """A quoted include is a path from the root, and it is there."""
     complaints = []
@@ -421,5 +439,5 @@ def mutants(tree):
     return complaints
 
 
-ALL = (part_shape, part_definitions, layering, parts_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
+ALL = (part_shape, part_definitions, layering, parts_are_strangers, stages_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
        keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, long_shader_texts, named_bindings, recipes, manual_pages, mutants)

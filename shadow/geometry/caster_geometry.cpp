@@ -2,8 +2,8 @@
 #include "shadow/geometry/caster_geometry.h"
 
 #include "gpu/hash.h"
+#include "shadow/geometry/draw.h"
 #include "shadow/scene/casting.h"
-#include "shadow/view/draw.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The names by which lookups ask for what is made of a map.
 #include "shadow/casters/peel.h"
-#include "shadow/map/derived.glsl"
 #include "shadow/map/derived.h"
 #include "shadow/map/sums.h"
+#include "shadow/receiver/map_range.glsl"
 #include "shadow/recipe/part.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is made of a map for those who ask for it by name. A pyramid of least and greatest depths, and N-buffers, which
-// answer for any square of 2^l texels and not only for aligned ones: the readers are in derived.glsl. Sums over rectangles:
-// sums.glsl. Mips. The surfaces one behind the other: shadow/casters/peel.h.
+// answer for any square of 2^l texels and not only for aligned ones; shadow/receiver/map_range.glsl reads both. Sums over
+// rectangles: sums.glsl. Mips. The surfaces one behind the other: shadow/casters/peel.h.
 //
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #pragma once
@@ -51,8 +51,6 @@ struct Derivation {
     TextureHandle (*add)(const DerivedFrom&) = nullptr;
 };
 std::span<const Derivation> derivations();
-/// Whether a map part gives what a lookup names, itself or derived.
-bool map_gives(const Part& map, std::string_view need);
 /// Adds to the map's offers what the recipe's lookup needs and the map does not give itself: once, however many read it.
 /// Throws Refusal where the device cannot make it.
 void add_derived(const FrameInput& input, const Recipe& recipe, const LightViews& views, ShadowMap& map);

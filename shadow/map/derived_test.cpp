@@ -3,8 +3,8 @@
 #include "shadow/map/derived.h"
 
 #include "gpu/shader_inputs.h"
-#include "shadow/map/derived.glsl"
 #include "shadow/map/sums.h"
+#include "shadow/receiver/map_range.glsl"
 #include "tests/rig.h"
 
 #include <cmath>
@@ -277,7 +277,7 @@ TEST(Derived, RectanglesAreCoveredByFourFetches) {
         "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
         [=](Recorder& r) {
             r.bind(ComputeDesc{{ShaderKind::compute, "ask", inputs.text() + R"(
-#include "shadow/map/derived.glsl"
+#include "shadow/receiver/map_range.glsl"
 layout(local_size_x = 64) in;
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -16,8 +16,9 @@ LightViews place_crossing(const FrameInput& input, const Recipe& recipe) {
 }
 
 std::vector<float> visibility(SceneGpu& gpu, const Recipe& recipe) {
-    const FrameResult frame = render_frame(test::device(), gpu, gpu.scene->camera(""), recipe,
-                                           {.width = 96, .height = 64, .only_light = 0, .samples = false, .picture = false});
+    const FrameResult frame =
+        render_frame(test::device(), gpu, gpu.scene->camera(""), recipe,
+                     {.width = 96, .height = 64, .only_light = 0, .samples = false, .picture = false});
     EXPECT_EQ(frame.refused.front(), "");
     return frame.visibility.front().values;
 }
@@ -25,8 +26,9 @@ std::vector<float> visibility(SceneGpu& gpu, const Recipe& recipe) {
 TEST(MapAccess, WhatCrossesNothingReadsWhatItReadBefore) {
     const test::ValidationGuard guard;
     SceneGpu gpu = upload_scene(test::device(), test::built_in("contact"));
-    for (const char* lookup : {"hard", "pcf,pcf.kernel=gaussian,pcf.size=9", "pcf,pcf.kernel=vogel,pcf.taps=16,pcf.radius=5",
-                               "vsm,filtered.footprint=radius,filtered.radius=7", "pcss", "chs", "vssm"}) {
+    for (const char* lookup :
+         {"hard", "pcf,pcf.kernel=gaussian,pcf.size=9", "pcf,pcf.kernel=vogel,pcf.taps=16,pcf.radius=5",
+          "vsm,filtered.footprint=radius,filtered.radius=7", "pcss", "chs", "vssm"}) {
         // One view, wider than the kernel by its guard.
         Recipe recipe = load_recipe(std::string(lookup) + ",placement=fit,resolution=256");
         const std::vector<float> within = visibility(gpu, recipe);

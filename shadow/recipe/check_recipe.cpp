@@ -3,7 +3,6 @@
 #include "shadow/recipe/check_recipe.h"
 
 #include "shadow/casters/caster_depth.h"
-#include "shadow/map/derived.h"
 
 #include <algorithm>
 #include <array>
@@ -62,10 +61,12 @@ std::string casters_misfit(const Recipe& recipe, const Scene& scene) {
             "casters = {} says what a map part keeps, and a recipe with direct '{}' has none; valid is all",
             name_of(casters), recipe.direct->id);
     }
-    if (casters != Casters::front && casters != Casters::back && !recipe.map->separates_casters) {
-        return fmt::format("casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, front, back",
-                           name_of(casters), recipe.map->id,
-                           ids_of(Stage::map, [](const Part& part) { return part.separates_casters; }), recipe.map->id);
+    const bool separated = casters == Casters::midpoint || casters == Casters::dual || casters == Casters::ids;
+    if (separated && !recipe.map->separates_casters) {
+        return fmt::format(
+            "casters = {} is not kept by map '{}'; maps that keep it: {}; '{}' takes all, auto, front, back",
+            name_of(casters), recipe.map->id,
+            ids_of(Stage::map, [](const Part& part) { return part.separates_casters; }), recipe.map->id);
     }
     if (casters == Casters::ids && !holds(recipe.lookup->optional, "ids")) {
         return fmt::format("casters = ids: lookup '{}' compares depths only; lookups that compare ids: {}",

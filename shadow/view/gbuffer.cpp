@@ -6,9 +6,9 @@
 // the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
 #include "gpu/vk_names.h"
 #include "shadow/frame/frame.h"
+#include "shadow/geometry/draw.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/scene/casting.h"
-#include "shadow/view/draw.h"
 
 namespace gn {
 namespace {

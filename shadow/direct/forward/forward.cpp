@@ -5,6 +5,7 @@
 // Departs from it: splats are added up in one compute pass, and the camera's visibility is settled by the depth of each
 // sample in the map, not by a second depth buffer.
 //
+// Stands on: shadow/placement/place (its map is placed as those of lookups are)
 // Also here: forward_passes.h, forward_passes.cpp, forward_splat.glsl.
 #include "shadow/direct/forward/forward_passes.h"
 

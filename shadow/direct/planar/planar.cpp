@@ -9,9 +9,9 @@
 #include "gpu/hash.h"
 #include "shadow/direct/planar/planar_planes.h"
 #include "shadow/geometry/caster_geometry.h"
+#include "shadow/geometry/draw.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
-#include "shadow/view/draw.h"
 
 #include <algorithm>
 #include <array>

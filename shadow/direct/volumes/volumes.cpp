@@ -7,8 +7,8 @@
 //
 // Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_counts.cpp.
 #include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/geometry/draw.h"
 #include "shadow/scene/casting.h"
-#include "shadow/view/draw.h"
 
 namespace gn {
 namespace {

@@ -26,6 +26,8 @@ GN_FN uint gn_back_segments(int window) {
 }  // namespace gn::glsl
 #else
 
+// What a host may fix when it compiles; left open, the parameters say it:
+//   #define GN_BACK_COMBINE 0
 #ifndef GN_BACK_COMBINE
 #define GN_BACK_COMBINE params.combine
 #endif

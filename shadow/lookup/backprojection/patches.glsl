@@ -11,6 +11,9 @@
 #include "shadow/lookup/backprojection/texels.glsl"
 
 #ifndef __cplusplus
+// What a host may fix when it compiles; left open, the parameters say it:
+//   #define GN_BACK_OCCLUDER 0
+//   #define GN_BACK_COMBINE 0
 #ifndef GN_BACK_OCCLUDER
 #define GN_BACK_OCCLUDER params.occluder
 #endif

@@ -9,7 +9,7 @@
 #include "shadow/lookup/backprojection/backprojection.h"
 #include "shadow/lookup/backprojection/light_plane.glsl"
 #include "shadow/lookup/backprojection/texels.glsl"
-#include "shadow/map/derived.glsl"
+#include "shadow/receiver/map_range.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -65,6 +65,9 @@ GN_FN ivec4 gn_back_view_texels(vec4 bounds_ts, float texel_ts) {
 #else
 
 // Beyond a view other views go on where kernels cross them; else what stands at its border goes on.
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
 #ifdef GN_CROSSING
 const bool gn_back_views_end = true;
 #else

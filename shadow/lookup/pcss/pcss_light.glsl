@@ -5,7 +5,7 @@
 #ifndef GN_SHADOW_LOOKUP_PCSS_LIGHT_GLSL
 #define GN_SHADOW_LOOKUP_PCSS_LIGHT_GLSL
 
-#include "shadow/map/derived.glsl"
+#include "shadow/receiver/map_range.glsl"
 #include "shadow/receiver/map_access.glsl"
 #include "shadow/receiver/noise.glsl"
 
@@ -160,7 +160,10 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
 }
 
 // Metres along the axis to what a tap holds: where tap_ts lies on the receiver's map, uv_ts on that of the tap's own view, and
-// there the receiver's plane at the depth `plane`.
+// there the receiver's plane at the depth `plane`. Where kernels cross views:
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
 float gn_pcss_seen(GnLookup at, GnLookup tap, vec3 axis, vec2 tap_ts, vec2 uv_ts, float plane, float depth) {
 #ifdef GN_CROSSING
     // Parallel views begin at different depths: as much nearer than the receiver's plane in its own view as in the tap's.

@@ -6,7 +6,7 @@
 #ifndef GN_SHADOW_MAP_ESM_GLSL
 #define GN_SHADOW_MAP_ESM_GLSL
 
-#include "shadow/map/derived.glsl"
+#include "shadow/receiver/map_range.glsl"
 #include "shadow/map/esm/esm.h"
 #include "shadow/receiver/map_mean.glsl"
 #include "shadow/receiver/receiver.glsl"

@@ -43,7 +43,7 @@ void main() {
 
 /// A multisampled map is judged by its first sample; textureSize has a level for the others only.
 std::string histogram_head(std::uint32_t samples) {
-    return std::string("#define GN_LLOYD_BEFORE(i) vec3(0)\n#include \"shadow/map/lvsm/lloyd.glsl\"\n") +
+    return std::string("#include \"shadow/map/lvsm/lloyd.glsl\"\n") +
            (samples > 1 ? "" : "#define textureSize(t) textureSize(t, 0)\n");
 }
 

@@ -4,8 +4,9 @@
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
 // Departs from it: means come from prefix sums over a histogram of depths, not from a mip pyramid for every two splits.
 //
-// Before including, define GN_LLOYD_BEFORE(i), i from 0 to GN_LVSM_BINS: the sums over the bins before i of
-// vec3(weight, weight x, weight x^2) where x is the middle of the bin minus one half.
+// Splits are moved where a host says, i from 0 to GN_LVSM_BINS, what the sums over the bins before i are of
+// vec3(weight, weight x, weight x^2) where x is the middle of the bin minus one half:
+//   #define GN_LLOYD_BEFORE(i) vec3(0.0f)
 #ifndef GN_SHADOW_MAP_LVSM_LLOYD_GLSL
 #define GN_SHADOW_MAP_LVSM_LLOYD_GLSL
 
@@ -49,6 +50,7 @@ GN_FN ivec2 gn_lloyd_cluster(GnLloydSplits splits, int layers, int k) {
                  k == layers - 1 ? GN_LVSM_BINS : gn_lloyd_bin(0.5f * (splits.at[k] + splits.at[k + 1])));
 }
 
+#ifdef GN_LLOYD_BEFORE
 GN_FN vec3 gn_lloyd_sums(ivec2 bins) { return GN_LLOYD_BEFORE(bins.y) - GN_LLOYD_BEFORE(bins.x); }
 
 // What is less than rounding of the prefix sums counts as empty.
@@ -114,6 +116,8 @@ GN_FN GnLloydSplits gn_lloyd_iterate(GnLloydSplits splits, int layers) {
     }
     return next;
 }
+
+#endif
 
 #ifdef __cplusplus
 }  // namespace gn::glsl

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/view/draw.h"
+#include "shadow/geometry/draw.h"
 
 namespace gn {
 namespace {

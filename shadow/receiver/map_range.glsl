@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Least and greatest depth of a rectangle of texels, from what shadow/map/derived.h makes. Texels are counted within the
+// layer, both ends included.
+// Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
+#ifndef GN_SHADOW_RECEIVER_MAP_RANGE_GLSL
+#define GN_SHADOW_RECEIVER_MAP_RANGE_GLSL
+
+#include "base/shared.h"
+
+#ifdef __cplusplus
+namespace gn::glsl {
+#endif
+
+// The finest level of a pyramid at which a rectangle lies in at most 2 x 2 texels.
+GN_FN int gn_pyramid_level(ivec2 first, ivec2 last, int levels) {
+    int level = 0;
+    while (level < levels - 1 && (((last.x >> level) - (first.x >> level)) > 1 || ((last.y >> level) - (first.y >> level)) > 1)) {
+        ++level;
+    }
+    return level;
+}
+
+// The level of a pyramid that coarse N-buffers are made of: blocks of 8 texels.
+const int gn_coarse_mip = 3;
+
+// The level of an N-buffer whose squares, one in each corner, cover a rectangle without a gap: the largest power of two
+// that is no longer than the longer side.
+GN_FN int gn_n_buffer_level(ivec2 first, ivec2 last, int levels) {
+    int side = max(last.x - first.x, last.y - first.y) + 1;
+    int level = 0;
+    while (level < levels - 1 && (2 << level) <= side) {
+        ++level;
+    }
+    return level;
+}
+
+#ifdef __cplusplus
+}  // namespace gn::glsl
+#else
+
+// A superset of the rectangle: what up to 2 x 2 texels of the pyramid cover.
+vec2 gn_pyramid_min_max(sampler2DArray pyramid, ivec2 first, ivec2 last, int layer, int levels) {
+    int level = gn_pyramid_level(first, last, levels);
+    // Of a level that differs from pixel to pixel some drivers give one pixel's size to all: shift the whole map's.
+    ivec2 edge = max(textureSize(pyramid, 0).xy >> level, ivec2(1)) - 1;
+    ivec2 a = min(first >> level, edge);
+    ivec2 b = min(last >> level, edge);
+    vec2 aa = texelFetch(pyramid, ivec3(a, layer), level).xy;
+    vec2 ba = texelFetch(pyramid, ivec3(b.x, a.y, layer), level).xy;
+    vec2 ab = texelFetch(pyramid, ivec3(a.x, b.y, layer), level).xy;
+    vec2 bb = texelFetch(pyramid, ivec3(b, layer), level).xy;
+    return vec2(min(min(aa.x, ba.x), min(ab.x, bb.x)), max(max(aa.y, ba.y), max(ab.y, bb.y)));
+}
+
+// Exact for squares; along a shorter side the squares reach beyond the rectangle by what the sides differ.
+vec2 gn_n_buffer_min_max(sampler2DArray squares, ivec2 first, ivec2 last, int layer, int levels) {
+    int level = gn_n_buffer_level(first, last, levels);
+    int index = layer * levels + level;
+    ivec2 end = max(last - (1 << level) + 1, first);
+    vec2 aa = texelFetch(squares, ivec3(first, index), 0).xy;
+    vec2 ba = texelFetch(squares, ivec3(end.x, first.y, index), 0).xy;
+    vec2 ab = texelFetch(squares, ivec3(first.x, end.y, index), 0).xy;
+    vec2 bb = texelFetch(squares, ivec3(end, index), 0).xy;
+    return vec2(min(min(aa.x, ba.x), min(ab.x, bb.x)), max(max(aa.y, ba.y), max(ab.y, bb.y)));
+}
+#endif
+
+#endif
