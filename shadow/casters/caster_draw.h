@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shadow/casters/raster.h"
+#include "shadow/casters/solids.h"
 
 namespace gn {
 
@@ -28,6 +29,7 @@ struct CasterJob {
     std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders
     bool translucent = false;          ///< the translucent casters alone, whole, instead of the others
     std::uint64_t light_id = 0;
+    std::shared_ptr<const Solids> solids;  ///< with casters = auto; null: all faces are drawn
 };
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass);
@@ -50,6 +52,8 @@ struct CasterDraw {
     void begin(Recorder& r, const CasterFaces& faces, bool masked) const;
     void draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    void both_sided(Recorder& r, std::span<const std::uint32_t> objects) const;
+    void ranges(Recorder& r, const CasterFaces& faces, std::span<const DrawRange> ranges) const;
     void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void draw_object(Recorder& r, std::uint32_t index) const;

@@ -18,7 +18,7 @@ void ask_drawn(const FrameInput& input, const Recipe& recipe, const LightViews& 
     if (views.kind == ViewKind::paraboloid) {
         refused(fmt::format("placement '{}' draws curved triangles", views.part->id));
     }
-    if (recipe.casters != Casters::all && recipe.casters != Casters::front && recipe.casters != Casters::back) {
+    if (recipe.casters == Casters::midpoint || recipe.casters == Casters::dual || recipe.casters == Casters::ids) {
         refused(fmt::format("casters = {} tells surfaces and objects apart", name_of(recipe.casters)));
     }
     if (pass.every_side || input.translucent) {

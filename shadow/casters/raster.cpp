@@ -3,10 +3,10 @@
 
 #include "shadow/casters/caster_pipeline.h"
 #include "shadow/casters/tiles.h"
+#include "shadow/geometry/draw.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
-#include "shadow/view/draw.h"
 
 #include <algorithm>
 
@@ -70,8 +70,12 @@ void CasterDraw::opaque(Recorder& r, const CasterFaces& faces, std::span<const s
         opaque_one_by_one(r, faces, objects);
         return;
     }
+    ranges(r, faces, opaque_runs(*job->scene, objects));
+}
+
+void CasterDraw::ranges(Recorder& r, const CasterFaces& faces, std::span<const DrawRange> ranges) const {
     std::vector<VkDrawIndexedIndirectCommand> draws;
-    for (const DrawRange& run : opaque_runs(*job->scene, objects)) {
+    for (const DrawRange& run : ranges) {
         draws.push_back({run.index_count, instances(), run.first_index, 0, 0});
     }
     if (draws.empty()) {
@@ -147,13 +151,28 @@ void CasterDraw::draw(Recorder& r, const CasterFaces& faces, std::span<const std
     masked(r, faces, objects);
 }
 
+namespace {
+constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
+constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
+}  // namespace
+
+void CasterDraw::both_sided(Recorder& r, std::span<const std::uint32_t> objects) const {
+    if (job->solids == nullptr) {
+        draw(r, {}, objects);
+        return;
+    }
+    const SolidFaces faces = solid_faces(*job->scene, *job->solids, objects, job->light->shape);
+    ranges(r, {}, faces.both);
+    ranges(r, fronts, faces.front);
+    ranges(r, backs, faces.back);
+    masked(r, {}, objects);
+}
+
 void CasterDraw::record(Recorder& r) const {
     if (job->handles.drawn != nullptr) {
         drawn(r);
         return;
     }
-    constexpr CasterFaces fronts{.culled = VK_CULL_MODE_BACK_BIT};
-    constexpr CasterFaces backs{.culled = VK_CULL_MODE_FRONT_BIT};
     const std::vector<std::uint32_t> drawn = objects();
     if (job->kept == Casters::front || job->kept == Casters::back) {
         draw(r, job->kept == Casters::front ? fronts : backs, drawn);
@@ -168,7 +187,7 @@ void CasterDraw::record(Recorder& r) const {
             .push_back(object);
     }
     if (!job->pass.by_object) {
-        draw(r, {}, both);
+        both_sided(r, both);
         draw(r, fronts, one);
         return;
     }
@@ -230,6 +249,9 @@ std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recip
     job->shader_key = hasher.finish().low;
     job->translucent = input.translucent;
     job->light_id = input.light_id;
+    if (recipe.casters == Casters::automatic && !input.translucent && !job->views.tiles) {
+        job->solids = solids_of(input);
+    }
     return job;
 }
 

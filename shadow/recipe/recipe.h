@@ -11,10 +11,12 @@
 
 namespace gn {
 
-/// What maps keep of the casters: the nearest of all, front or back faces; the surface between the two nearest (midpoint,
-/// dual); object ids beside depth (ids). See shadow/casters/caster_depth.h.
-enum class Casters { all, front, back, midpoint, dual, ids };
-inline constexpr std::array<std::string_view, 6> caster_names{"all", "front", "back", "midpoint", "dual", "ids"};
+/// What maps keep of the casters: the nearest of all, of solids found by the faces that turn to the light alone (automatic);
+/// front or back faces; the surface between the two nearest (midpoint, dual); object ids beside depth (ids). See
+/// shadow/casters/solids.h and caster_depth.h.
+enum class Casters { all, automatic, front, back, midpoint, dual, ids };
+inline constexpr std::array<std::string_view, 7> caster_names{"all",      "auto", "front", "back",
+                                                              "midpoint", "dual", "ids"};
 constexpr std::string_view name_of(Casters casters) {
     return caster_names[static_cast<std::size_t>(casters)];
 }
