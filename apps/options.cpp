@@ -198,7 +198,7 @@ struct Parser {
     void add_render() {
         CLI::App* command = app.add_subcommand("render", "One picture of a scene with one recipe's shadows");
         command->add_option("SCENE", render.scene, "Built-in name or file")->required();
-        command->add_option("-r,--recipe", render.recipe, "Recipe with overrides (default: pcf)");
+        command->add_option("-r,--recipe", render.recipe, "Recipe with overrides (default: soft)");
         command->add_option("-o,--output", render.output, "Picture to write, .png or .exr (default: out.png)");
         command->add_option("--size", render_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
         command->add_option("--view", render.view, "Name of the camera (default: the first)");
@@ -220,7 +220,8 @@ struct Parser {
     void add_compare() {
         CLI::App* command = app.add_subcommand("compare", "Recipes measured against ray-traced truth, with a report");
         command->add_option("SCENE", compare.scenes, "Built-in names or files")->required();
-        command->add_option("-r,--recipe", compare.recipes, "Recipes with overrides; may be repeated")->required();
+        command->add_option("-r,--recipe", compare.recipes,
+                            "Recipes with overrides; may be repeated (default: soft, soft-quality, pcf, hard)");
         command->add_option("-o,--output", compare.folder,
                             "Folder for the report: DIR/index.html (default: report, "
                             "unless --json is given)");
@@ -340,6 +341,9 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
         parser.compare.command = quoted_command(words);
         parser.compare.follow_path = parser.path->count() > 0;
+        if (parser.compare.recipes.empty()) {
+            parser.compare.recipes = {"soft", "soft-quality", "pcf", "hard"};
+        }
         if (parser.compare.folder.empty() && parser.compare.json.empty()) {
             parser.compare.folder = "report";
         }

@@ -59,7 +59,7 @@ struct FileOptions {
 };
 
 struct RenderOptions {
-    std::string scene, recipe = "pcf", output = "out.png", view, visibility;
+    std::string scene, recipe = "soft", output = "out.png", view, visibility;
     FileOptions file;
     int antialias = 4;        ///< frames, each moved by a part of a pixel
     std::string show, light;  ///< a picture of the hidden and the light that it is of; "" where not asked for

@@ -134,7 +134,7 @@ void show_recipe(const std::string& name) {
     fmt::print("  source      [{}]\n", recipe.citation);
     fmt::print("{}", split ? fmt::format("  light       {}\n", recipe.light->id) : "");
     if (mapped) {
-        fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", part_name(recipe.placement, "auto"),
+        fmt::print("  placement   {}\n  map         {}\n  lookup      {}\n", recipe.placement_name(),
                    part_name(recipe.map, "none"), part_name(recipe.lookup, "none"));
         fmt::print("  resolution  {} texels a side, of {} to {}\n", recipe.resolution, min_resolution, max_resolution);
         fmt::print("  casters     {}, of {}\n", name_of(recipe.casters), fmt::join(caster_names, ", "));

@@ -27,7 +27,7 @@ void add_parameters(RunResult& run, const Recipe& recipe) {
         return;
     }
     // Resolution, casters and bias belong to every map.
-    run.parameters.emplace_back("placement", recipe.placement != nullptr ? recipe.placement->id : "auto");
+    run.parameters.emplace_back("placement", recipe.placement_name());
     run.parameters.emplace_back("resolution", fmt::format("{}", recipe.resolution));
     run.parameters.emplace_back("casters", name_of(recipe.casters));
     ParamTable bias = bias_params;

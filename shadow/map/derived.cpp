@@ -73,6 +73,28 @@ void main() {
 }
 )";
 
+// Of a block of texels four at a time; the last one takes in what is left over, and beyond the map its border goes on.
+constexpr const char* block_text = R"(
+void main() {
+    ivec2 size = textureSize(source, 0).xy;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    ivec2 first = texel * push.stride;
+    ivec2 last = mix(first + push.stride - 1, size - 1, equal(texel, max(size / push.stride, ivec2(1)) - 1));
+    vec4 least = vec4(3.0e38);
+    vec4 greatest = vec4(-3.0e38);
+    for (int y = first.y; y <= last.y; y += 2) {
+        for (int x = first.x; x <= last.x; x += 2) {
+            vec4 four = textureGather(source, vec3((vec2(x, y) + 1.0) / vec2(size), float(push.layer)));
+            least = min(least, four);
+            greatest = max(greatest, four);
+        }
+    }
+    vec2 a = min(least.xy, least.zw);
+    vec2 b = max(greatest.xy, greatest.zw);
+    result = vec4(min(a.x, a.y), max(b.x, b.y), 0.0, 0.0);
+}
+)";
+
 /// [Dec05]: a square of twice the side is four squares, each a side apart.
 std::string join_text(NBuffer kind) {
     return R"(
@@ -92,6 +114,7 @@ void main() {
 /// The shaders of all steps, composed once.
 struct StepShaders {
     RasterDesc range = step_shader("min max", first_text), halve = step_shader("min max", halve_text);
+    RasterDesc block = step_shader("min max", block_text);
     RasterDesc square = step_shader("n-buffer", first_text), copy = step_shader("n-buffer", copy_text);
     RasterDesc join_ranges = step_shader("n-buffer", join_text(NBuffer::min_max));
     RasterDesc join_means = step_shader("n-buffer", join_text(NBuffer::mean));
@@ -114,12 +137,15 @@ TextureDesc range_desc(FrameGraph& graph, TextureHandle source, std::string name
 
 }  // namespace
 
-TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth) {
+TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth, std::uint32_t first) {
     TextureDesc desc = range_desc(graph, depth, "map min max");
+    desc.width = std::max(desc.width >> first, 1U);
+    desc.height = std::max(desc.height >> first, 1U);
     desc.mips = static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)));
     const TextureHandle pyramid = graph.create(desc);
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
-        add_step(graph, depth, pyramid, {step_shaders().range, one_layer(layer), one_layer(layer)});
+        const RasterDesc& base = first > 0 ? step_shaders().block : step_shaders().range;
+        add_step(graph, depth, pyramid, {base, one_layer(layer), one_layer(layer), {0, 1 << first}});
         for (std::uint32_t mip = 1; mip < desc.mips; ++mip) {
             add_step(graph, pyramid, pyramid, {step_shaders().halve, one_layer(layer, mip - 1), one_layer(layer, mip)});
         }

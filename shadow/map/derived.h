@@ -13,8 +13,9 @@ namespace gn {
 
 /// RG32F, as large as `depth`, all mips: x the least and y the greatest depth of the 2^l x 2^l texels under a texel of
 /// level l. Where a side is odd, the last texel of the next level covers three of its texels, so that none is left out.
-/// `depth`: a 2D array, one sample; its layers stay.
-TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth);
+/// `depth`: a 2D array, one sample; its layers stay. Without its first levels where `first` is above 0: level l is then of
+/// 2^(l + first) texels, and is made of the depths at once.
+TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth, std::uint32_t first = 0);
 
 enum class NBuffer {
     min_max,  ///< RG32F: least and greatest

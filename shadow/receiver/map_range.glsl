@@ -20,8 +20,17 @@ GN_FN int gn_pyramid_level(ivec2 first, ivec2 last, int levels) {
     return level;
 }
 
-// The level of a pyramid that coarse N-buffers are made of: blocks of 8 texels.
+// The level of a pyramid that coarse N-buffers are made of, and that block pyramids begin with: blocks of 8 texels.
 const int gn_coarse_mip = 3;
+
+// The level of a whole pyramid that the first one of this pyramid is, by the sides of the map and of that level.
+GN_FN int gn_pyramid_first(int map_side, int side) {
+    int first = 0;
+    while ((map_side >> (first + 1)) >= side) {
+        ++first;
+    }
+    return first;
+}
 
 // The level of an N-buffer whose squares, one in each corner, cover a rectangle without a gap: the largest power of two
 // that is no longer than the longer side.

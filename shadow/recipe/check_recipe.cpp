@@ -154,7 +154,7 @@ std::string stages_misfit(const Recipe& recipe) {
 }
 
 std::string placement_remark(const Recipe& recipe, const Scene& scene) {
-    if (recipe.placement == nullptr || !serves_some(*recipe.placement, scene)) {
+    if (recipe.placement == nullptr || recipe.placement_or_auto || !serves_some(*recipe.placement, scene)) {
         return {};
     }
     std::string others;
@@ -173,7 +173,7 @@ std::string placement_remark(const Recipe& recipe, const Scene& scene) {
 
 void check_recipe(const Recipe& recipe, const Scene& scene, const Light& light, const Device& device) {
     // A placement that serves none of the lights was named in vain.
-    if (recipe.placement != nullptr && !serves_some(*recipe.placement, scene)) {
+    if (recipe.placement != nullptr && !recipe.placement_or_auto && !serves_some(*recipe.placement, scene)) {
         check_part(*recipe.placement, recipe, scene, light, device);
     }
 

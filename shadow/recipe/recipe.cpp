@@ -37,7 +37,7 @@ std::string text_of(const toml::node& node, std::string_view key, const std::str
     if (const auto* text = node.as_string()) {
         return text->get();
     }
-    if (const auto* list = node.as_array(); list != nullptr && key == "visibility") {
+    if (const auto* list = node.as_array(); list != nullptr && (key == "visibility" || key == "placement")) {
         return text_of_list(*list, key, where);
     }
     if (const auto* integer = node.as_integer()) {
@@ -212,6 +212,10 @@ const Part& Recipe::placement_for(const GnLight& shape) const {
         std::find_if(parts.begin(), parts.end(), [&](const Part* part) { return part->stands_in_for.has(shape.kind); });
     GN_CHECK(found != parts.end());
     return **found;
+}
+
+std::string Recipe::placement_name() const {
+    return placement == nullptr ? "auto" : std::string(placement->id) + (placement_or_auto ? "+auto" : "");
 }
 
 std::filesystem::path recipe_file(const std::string& name, const std::filesystem::path& data) {

@@ -32,6 +32,7 @@ struct Recipe {
     const Part* light = nullptr;  ///< optional: splits a light into several
     const Part* placement =
         nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
+    bool placement_or_auto = false;  ///< a scene without lights that it serves is no mistake: "cascades+auto"
     const Part* map = nullptr;
     const Part* lookup = nullptr;
     /// Where both are set translucent casters have a map of their own, and V is the product of both lookups' V.
@@ -59,6 +60,8 @@ struct Recipe {
     [[nodiscard]] std::vector<const Part*> parts() const;
     /// The placement for a light: as named where that serves such lights, else the one that stands in for their kind.
     [[nodiscard]] const Part& placement_for(const GnLight& shape) const;
+    /// As it is written in recipes: "auto", "cascades", "cascades+auto".
+    [[nodiscard]] std::string placement_name() const;
 };
 
 /// Valid values of `resolution`.

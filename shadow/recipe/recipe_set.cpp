@@ -121,7 +121,15 @@ bool set_top_level(Recipe& recipe, std::string_view key, std::string_view value,
     if (key == "light") {
         recipe.light = named_part(Stage::light, value, "none", where);
     } else if (key == "placement") {
-        recipe.placement = named_part(Stage::placement, value, "auto", where);
+        // "cascades+auto": where it serves, and where no light is one that it serves as the lights' kind says.
+        const std::string_view first = without_blanks(value.substr(0, value.find('+')));
+        const bool more = value.find('+') != std::string_view::npos;
+        if (more && (first == "auto" || without_blanks(value.substr(value.find('+') + 1)) != "auto")) {
+            fail("{}: placement = {} is not valid; behind a placement may stand +auto alone, as in cascades+auto", where,
+                 value);
+        }
+        recipe.placement = named_part(Stage::placement, first, "auto", where);
+        recipe.placement_or_auto = more;
     } else if (key == "map") {
         recipe.map = named_part(Stage::map, value, "none", where);
         recipe.direct = recipe.map != nullptr && !recipe.combine ? nullptr : recipe.direct;

@@ -183,6 +183,28 @@ TEST(Recipes, ANamedPlacementLeavesOtherLightsToTheAutomaticOne) {
     EXPECT_EQ(placement_remark(load_recipe("hard,placement=lispsm"), scene), "");
 }
 
+TEST(Recipes, APlacementWithAutoBehindItIsNeverNamedInVain) {
+    const Recipe recipe = load_recipe("hard,placement=cascades+auto");
+    EXPECT_EQ(recipe.placement_for(light_of(GN_LIGHT_DIRECTIONAL).shape).id, "cascades");
+    EXPECT_EQ(recipe.placement_for(light_of(GN_LIGHT_POINT).shape).id, "cube");
+    Scene scene;
+    const AnsweringDevice device;
+    scene.lights = {light_of(GN_LIGHT_POINT)};
+    EXPECT_NO_THROW(check_recipe(recipe, scene, scene.lights[0], device));
+    scene.lights.push_back(light_of(GN_LIGHT_DIRECTIONAL));
+    EXPECT_EQ(placement_remark(recipe, scene), "");
+
+    // A file has it as a list; an override without it takes it back.
+    const std::string rest = "map = \"depth\"\nlookup = \"hard\"\n";
+    const RecipeFile file("placement = [\"cascades\", \"auto\"]\n" + rest);
+    EXPECT_EQ(load_recipe(file.path()).placement_name(), "cascades+auto");
+    EXPECT_EQ(load_recipe(file.path() + ",placement=cascades").placement_name(), "cascades");
+    EXPECT_EQ(load_recipe(file.path() + ",placement=auto").placement_name(), "auto");
+    for (const char* wrong : {"cascades+fit", "auto+auto", "cascades+"}) {
+        expect_has(sentence_of(fmt::format("hard,placement={}", wrong)), {"placement", "+auto alone"});
+    }
+}
+
 TEST(Recipes, OverridesAreLaidOverTheFile) {
     const Recipe recipe = load_recipe("pcf,resolution=2048,pcf.taps=25,placement=cube,bias.normal=1.5,casters=front");
     const Part& pcf = find_part(Stage::lookup, "pcf");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the split of a rectangle.
+// Parameters of the split of a light.
 #ifndef GN_SHADOW_LIGHT_SPLIT_H
 #define GN_SHADOW_LIGHT_SPLIT_H
 
@@ -7,6 +7,7 @@
 
 struct GnSplitParams {
     int side GN_DEFAULT(2);
+    int round GN_DEFAULT(0);  ///< true or false: discs, spheres and suns have pieces too
 };
 
 #endif

@@ -28,12 +28,49 @@ TEST(Split, PiecesTileTheRectangle) {
     EXPECT_NEAR(area, 4 * light.shape.half_size.x * light.shape.half_size.y, 1e-6);
 }
 
+/// Along each axis across the light's own, and of a sphere along any, the points of all pieces together spread as its own do.
+TEST(Split, RoundPiecesSpreadAsTheLightDoes) {
+    const Part& part = find_part(Stage::light, "split");
+    const Recipe recipe = load_recipe("pcss,light=split,split.round=true");
+    for (const uint kind : {GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT}) {
+        Light light;
+        light.shape.kind = kind;
+        light.shape.direction_ws = vec4(glm::normalize(vec3(1, -2, 0.5F)), 0);
+        light.shape.radius = 0.4F;
+        light.shape.angular_radius = 0.01F;
+        const bool sun = kind == GN_LIGHT_DIRECTIONAL;
+        const double radius = sun ? 0.01 : 0.4;
+        const std::vector<Light> pieces = part.split(light, recipe);
+        ASSERT_EQ(pieces.size(), 4U);
+        const dvec3 along(light.shape.direction_ws);
+        const dvec3 across = glm::normalize(glm::cross(along, dvec3(0, 0, 1)));
+        for (const dvec3& axis : {across, glm::cross(along, across)}) {
+            double mean = 0, square = 0;
+            for (const Light& piece : pieces) {
+                const double at = glm::dot(
+                    axis, dvec3(sun ? vec3(piece.shape.direction_ws) : vec3(piece.shape.position_ws)));
+                const double half = sun ? piece.shape.angular_radius : piece.shape.radius;
+                mean += at / 4;
+                square += (at * at + half * half / 4) / 4;
+            }
+            EXPECT_NEAR(mean, 0, 1e-6 * radius + 1e-7) << kind;
+            EXPECT_NEAR(square / (radius * radius), 0.25, 1e-3) << kind;
+        }
+        light.shape.radius = light.shape.angular_radius = 0;
+        EXPECT_EQ(part.split(light, recipe).size(), 1U) << "a light without extent has no pieces";
+    }
+}
+
 /// What a single map has behind the upper of two sheets, the maps of the pieces see beside it.
 TEST(SplitRendered, PiecesSeeMoreThanTheWhole) {
     const test::ComparisonOptions options{.width = 96, .height = 72, .samples = 64};
     const auto whole = test::compare("overlap", "backprojection,resolution=512", options);
     const auto split = test::compare("overlap", "backprojection,resolution=512,light=split", options);
     EXPECT_LT(*split.errors.rmse, 0.7 * *whole.errors.rmse);
+    // A sphere of pieces that overlap errs less than as a whole, too.
+    const auto round = test::compare("overlap:light=point", "pcss,resolution=512,light=split,split.round=true", options);
+    const auto sphere = test::compare("overlap:light=point", "pcss,resolution=512", options);
+    EXPECT_LT(*round.errors.rmse, 0.7 * *sphere.errors.rmse);
 }
 
 }  // namespace

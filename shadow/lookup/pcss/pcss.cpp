@@ -16,6 +16,10 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
     return light_guard(light, bounds_ws, recipe.of<GnPcssParams>("pcss").least);
 }
 
+std::vector<std::string_view> needs_for(const Recipe& recipe) {
+    return {"depth", recipe.of<GnPcssParams>("pcss").extremes == GN_PCSS_BLOCKS ? "block-min-max" : "min-max"};
+}
+
 ParamTable rows() {
     return param_table<GnPcssParams>({
         GN_CHOICE(
@@ -34,6 +38,10 @@ ParamTable rows() {
             GnPcssParams, early_out, boolean, 0, 1, "",
             "Skips the search where the least and greatest depth of its region say that all of the light is seen, or "
             "none: V stays the same."),
+        GN_CHOICE(GnPcssParams, extremes,
+                  "Of what least and greatest depths are known: of single texels on, or of blocks of 8 x 8, which are "
+                  "made in a fraction of the time, end fewer searches and widen those beside near casters.",
+                  "texels", "blocks"),
     });
 }
 
@@ -49,6 +57,7 @@ const Part& lookup_pcss() {
         p.title = "Percentage-closer soft shadows";
         p.citation = "Fer05";
         p.needs = {"depth", "min-max"};
+        p.needs_for = needs_for;
         p.sides = {{"blocker-distance", "m",
                     "How far along the light's depth what hides a sample lies before it, on average."},
                    {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."}};

@@ -86,8 +86,7 @@ float gn_pcss_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray p
     params.early_out = 0;
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_gradient_noise(at.receiver.p_ss));
-    float half_width = max(length(half_light.right_ws), length(half_light.up_ws));
-    return found.visibility >= 0.0 ? 0.0 : 2.0 * half_width * gn_pcss_spread_at(at, found.receiver, found.blocker);
+    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
 }
 #endif
 

@@ -8,6 +8,9 @@
 #define GN_PCSS_AVERAGE 0
 #define GN_PCSS_NEAREST 1
 
+#define GN_PCSS_TEXELS 0
+#define GN_PCSS_BLOCKS 1
+
 struct GnPcssParams {
     int blocker GN_DEFAULT(GN_PCSS_AVERAGE);
     int search_taps GN_DEFAULT(16);
@@ -15,6 +18,7 @@ struct GnPcssParams {
     float density GN_DEFAULT(4.0f);
     float least GN_DEFAULT(1.5f);
     int early_out GN_DEFAULT(1);
+    int extremes GN_DEFAULT(GN_PCSS_TEXELS);
 };
 
 #endif

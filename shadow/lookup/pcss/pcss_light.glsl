@@ -80,6 +80,11 @@ GN_FN float gn_pcss_bulge(float radius, float blocker) {
     return 1.0f / sqrt(1.0f - share * share);
 }
 
+// Metres across the penumbra of what spreads the light's points so, where it lies across the axis.
+GN_FN float gn_pcss_width(GnPcssLight half_light, float spread) {
+    return 2.0f * max(length(half_light.right_ws), length(half_light.up_ws)) * spread;
+}
+
 // Where on the map the receiver sees point q of the light through a plane across the axis: seen from the light's centre it is
 // where the receiver would be if it moved by `spread` times the point. From the receiver's own place.
 GN_FN vec2 gn_pcss_shift(GnLookup at, GnPcssLight half_light, vec2 q, float spread) {
@@ -142,7 +147,8 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
     vec2 last_ts = min(high_ts, at.projected.bounds_ts.zw - 0.5 * at.projected.texel_ts);
     ivec2 first = ivec2(floor(first_ts / at.projected.texel_ts));
     ivec2 last = max(ivec2(floor(last_ts / at.projected.texel_ts)), first);
-    vec2 found = gn_pyramid_min_max(pyramid, first, last, at.projected.layer, textureQueryLevels(pyramid));
+    int level = gn_pyramid_first(int(1.0 / at.projected.texel_ts + 0.5), textureSize(pyramid, 0).x);
+    vec2 found = gn_pyramid_min_max(pyramid, first >> level, last >> level, at.projected.layer, textureQueryLevels(pyramid));
     if (!gn_within_view(at.projected, low_ts, high_ts)) {
         return vec2(found.x, -1.0);
     }

@@ -12,6 +12,8 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/recipe.h"
 
+#include <array>
+
 namespace gn {
 namespace {
 
@@ -62,6 +64,8 @@ void main() {
     vec4 normal = gbuffer_normal_texel(pixel);
     vec3 own = texelFetch(rows, pixel, 0).xyz;
     float spread = -1.0;
+    bool hides = false;
+    float before = 0.0;
     if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && own.z > 0.0) {
         GnSssmColumn sum = GnSssmColumn(0.0, 0.0, 0.0);
         if (own.z < 1.0) {
@@ -71,11 +75,40 @@ void main() {
         if (sum.weight == 0.0) {
             gn_sssm_take(sum, pixel, 0.0, 1.0);
         }
-        spread = own.z >= 1.0 ? 1.0e7 : sum.hidden > 0.0 ? gn_sssm_spread(u.light, position.xyz, sum.before / sum.hidden) : -1.0;
+        hides = sum.hidden > 0.0;
+        before = hides ? sum.before / sum.hidden : 0.0;
+        spread = own.z >= 1.0 ? 1.0e7 : hides ? gn_sssm_spread(u.light, position.xyz, before) : -1.0;
     }
     imageStore(result, pixel, vec4(min(spread, 1.0e7)));
+    GN_SSSM_TELL
 }
 )";
+
+/// What the search tells of a pixel whose light something hides; where extremes decided that all of it is hidden, of the nearest.
+struct Told {
+    std::string_view side;
+    const char* name;
+    const char* value;
+};
+constexpr std::array<Told, 2> told{
+    {{"blocker-distance", "blocker_distance", "before"},
+     {"penumbra-width", "penumbra_width",
+      "gn_pcss_width(gn_pcss_light(u.light, position.xyz), gn_sssm_spread(u.light, position.xyz, before))"}}};
+
+/// An image for each side that is asked for; its line of the search's GLSL is added to `text`.
+std::vector<Offer> add_told(const FrameInput& input, ShaderInputs& inputs, std::string& text) {
+    std::vector<Offer> sides;
+    text = "#define GN_SSSM_TELL ";
+    for (const Told& each : told) {
+        if (holds(input.sides, each.side)) {
+            sides.push_back({std::string(each.side), create_visibility(input.graph, input.samples), nearest()});
+            inputs.image(image_format(visibility_format(1)), "writeonly", "image2D", each.name, sides.back().texture);
+            text += fmt::format("imageStore({}, pixel, vec4(hides ? {} : 0.0)); ", each.name, each.value);
+        }
+    }
+    text += "\n";
+    return sides;
+}
 
 constexpr const char* filter_text = R"(
 struct GnSssmColumn { float weight; float lit; };
@@ -109,24 +142,28 @@ void main() {
 }
 )";
 
-/// One pass over the picture that gathers rows. `spreads`: invalid in the search, which makes them.
-TextureHandle add_columns(const FrameInput& input, const Recipe& recipe, TextureHandle rows, TextureHandle spreads) {
+/// One pass over the picture that gathers rows. `spreads`: invalid in the search, which makes them, and tells what it is asked.
+Visibility add_columns(const FrameInput& input, const Recipe& recipe, TextureHandle rows, TextureHandle spreads) {
     const bool filters = spreads.valid();
-    const TextureHandle result = create_visibility(input.graph, input.samples);
+    Visibility result{create_visibility(input.graph, input.samples)};
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
     inputs.texture("sampler2D", "rows", rows);
     if (filters) {
         inputs.texture("sampler2D", "spreads", spreads);
     }
-    inputs.image(image_format(visibility_format(1)), "writeonly", "image2D", "result", result);
+    inputs.image(image_format(visibility_format(1)), "writeonly", "image2D", "result", result.image);
+    std::string tell;
+    if (!filters) {
+        result.sides = add_told(input, inputs, tell);
+    }
     inputs.constant("GnViewConstants", "view", input.samples.constants)
         .constant("GnLight", "light", input.light().shape)
         .constant("GnLight", "whole", input.whole_light().shape)
         .constant("GnSssmParams", "params", recipe.of<GnSssmParams>("sssm"));
     const char* const name = filters ? "filter columns" : "search columns";
     const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
-        return expect_text(input.device) + channels_text(1) + include_line("shadow/view/view.glsl") +
+        return tell + expect_text(input.device) + channels_text(1) + include_line("shadow/view/view.glsl") +
                include_line("shadow/receiver/reprojection.glsl") + include_line("shadow/lookup/sssm/sssm.glsl") +
                inputs.text() + (filters ? filter_text : search_text) + columns_text +
                (filters ? filter_main : search_main);
@@ -181,15 +218,17 @@ Visibility add_sssm(const FrameInput& input, const Recipe& recipe, const LightVi
         return pass;
     }(*recipe.lookup);
 
-    // Search: rows from the map, columns from the picture.
-    const TextureHandle blockers = resolve_with(input, recipe, search, views, map).image;
-    const TextureHandle spreads = add_columns(input, recipe, blockers, {});
+    // Search: rows from the map, columns from the picture, which tell what is asked.
+    FrameInput unasked = input;
+    unasked.sides.clear();
+    const TextureHandle blockers = resolve_with(unasked, recipe, search, views, map).image;
+    const Visibility spreads = add_columns(input, recipe, blockers, {});
 
     // Filter likewise, as wide as the penumbra.
     ShadowMap with_spreads = map;
-    with_spreads.offers.push_back({"spreads", spreads, nearest()});
-    const TextureHandle rows = resolve_with(input, recipe, filter, views, with_spreads).image;
-    return {add_columns(input, recipe, rows, spreads)};
+    with_spreads.offers.push_back({"spreads", spreads.image, nearest()});
+    const TextureHandle rows = resolve_with(unasked, recipe, filter, views, with_spreads).image;
+    return {add_columns(input, recipe, rows, spreads.image).image, spreads.sides};
 }
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
@@ -230,6 +269,9 @@ const Part& lookup_sssm() {
         p.title = "Separable soft shadow mapping";
         p.citation = "BGC16";
         p.needs = {"depth", "min-max"};
+        p.sides = {{"blocker-distance", "m",
+                    "How far along the light's depth what hides a sample lies before it, on average."},
+                   {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."}};
         p.params = rows();
         p.params_type = "GnSssmParams";
         p.glsl = "shadow/lookup/sssm/sssm.glsl";

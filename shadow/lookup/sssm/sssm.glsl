@@ -120,26 +120,53 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     return 1.0 - sum.hidden / sum.weight;
 }
 #elif defined(GN_SSSM_GRID)
-float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+struct GnSssmFound {
+    float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
+    float before;      // metres along the axis from what hides the light to the receiver, on average
+};
+
+GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, vec3 axis, float receiver, float spread,
+                       GnSssmParams params) {
+    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
+    for (int j = 0; j < params.side; ++j) {
+        gn_sssm_row(at, depth, half_light, axis, receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
+    }
+    return sum;
+}
+
+GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light, GnSssmParams params) {
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
-        return region.visibility;
+        return GnSssmFound(region.visibility, 0.0);
     }
-    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    for (int j = 0; j < params.side; ++j) {
-        gn_sssm_row(at, depth, half_light, axis, region.receiver, region.spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, axis, region.receiver, region.spread, params);
+    return sum.hidden > 0.0 ? GnSssmFound(-1.0, sum.before / sum.hidden) : GnSssmFound(1.0, 0.0);
+}
+
+float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnSssmFound found = gn_sssm_search(at, depth, pyramid, half_light, params);
+    if (found.visibility >= 0.0) {
+        return found.visibility;
     }
-    if (sum.hidden <= 0.0) {
-        return 1.0;
-    }
-    float spread = gn_sssm_spread(at.light, at.receiver.p_ws, sum.before / sum.hidden);
-    sum = GnSssmSum(0.0, 0.0, 0.0);
-    for (int j = 0; j < params.side; ++j) {
-        gn_sssm_row(at, depth, half_light, axis, region.receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
-    }
+    float spread = gn_sssm_spread(at.light, at.receiver.p_ws, found.before);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_axis(at.light, at.receiver.p_ws), 1.0, spread, params);
     return 1.0 - sum.hidden / sum.weight;
+}
+
+// Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
+float gn_sssm_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
+    params.early_out = 0;
+    return gn_sssm_search(at, depth, pyramid, gn_pcss_light(at.light, at.receiver.p_ws), params).before;
+}
+
+// Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
+float gn_sssm_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
+    params.early_out = 0;
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnSssmFound found = gn_sssm_search(at, depth, pyramid, half_light, params);
+    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_sssm_spread(at.light, at.receiver.p_ws, found.before));
 }
 #endif
 #endif

@@ -28,6 +28,9 @@ const Part& lookup_vssm() {
         p.citation = "YDF+10";
         p.needs = {"min-max"};
         p.filters = true;
+        p.sides = {{"blocker-distance", "m",
+                    "How far along the light's depth what hides a sample lies before it, on average."},
+                   {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."}};
         p.params = param_table<GnVssmParams>({
             GN_PARAM(GnVssmParams, side, integer, 1, 8, "",
                      "Parts along a side of a kernel: less bleeding and truer slopes, cost grows with its square."),

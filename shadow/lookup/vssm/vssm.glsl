@@ -71,17 +71,22 @@ GnLookup gn_vssm_beside(GnLookup at, vec2 middle_ts) {
     return beside;
 }
 
-float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+struct GnVssmFound {
+    float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
+    float receiver;    // metres along the axis
+    float blocker;     // likewise, on average
+};
+
+// What hides the light in each part of the region where anything can, and how far away it is.
+GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnVssmParams params) {
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
-    if (region.visibility >= 0.0) {
-        return region.visibility;
+    GnVssmFound result = GnVssmFound(region.visibility, region.receiver, region.receiver);
+    if (result.visibility >= 0.0) {
+        return result;
     }
     int parts = params.side * params.side;
     float least_ts = params.least * at.projected.texel_ts;
-
-    // Search: what hides the light in each part of the region, and how far away it is.
     GnVssmKernel kernel = gn_vssm_kernel(at, half_light, region.spread, least_ts, params.side);
     float hidden = 0.0;
     float distance = 0.0;
@@ -95,12 +100,25 @@ float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams param
         distance += found.x * gn_pcss_seen(at, part, axis, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
     }
     if (hidden <= 1.0e-3 * float(parts)) {
-        return 1.0;
+        result.visibility = 1.0;
+        return result;
+    }
+    result.blocker = clamp(distance / hidden, min(region.nearest, region.receiver), region.receiver);
+    return result;
+}
+
+float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnVssmFound found = gn_vssm_search(at, pyramid, half_light, params);
+    if (found.visibility >= 0.0) {
+        return found.visibility;
     }
 
     // Filter as wide as the penumbra.
-    float blocker = clamp(distance / hidden, min(region.nearest, region.receiver), region.receiver);
-    kernel = gn_vssm_kernel(at, half_light, gn_pcss_spread_at(at, region.receiver, blocker), least_ts, params.side);
+    int parts = params.side * params.side;
+    float least_ts = params.least * at.projected.texel_ts;
+    float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
+    GnVssmKernel kernel = gn_vssm_kernel(at, half_light, spread, least_ts, params.side);
     float lit = 0.0;
     for (int i = 0; i < parts; ++i) {
         vec2 q = gn_vssm_part(i, params.side);
@@ -108,6 +126,21 @@ float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams param
         lit += GN_MAP_VISIBILITY(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
     }
     return lit / float(parts);
+}
+
+// Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
+float gn_vssm_blocker_distance(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
+    params.early_out = 0;
+    GnVssmFound found = gn_vssm_search(at, pyramid, gn_pcss_light(at.light, at.receiver.p_ws), params);
+    return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
+}
+
+// Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
+float gn_vssm_penumbra_width(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
+    params.early_out = 0;
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnVssmFound found = gn_vssm_search(at, pyramid, half_light, params);
+    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
 }
 
 #endif
