@@ -33,11 +33,22 @@ TEST(CommandLine, MisuseIsOneSentenceThatNamesWhatIsValid) {
     expect_misuse({"show", "pfc"}, {"'pfc'", "did you mean 'pcf'", "volumes"});
     expect_misuse({"render"}, {"SCENE"});
     expect_misuse({"compare"}, {"SCENE"});
-    expect_misuse({"compare", "slab"}, {"--recipe"});
     expect_misuse({"compare", "slab", "-r", "hard", "--sampels", "3"}, {"'--sampels'", "did you mean '--samples'"});
     expect_misuse({"compare", "slab", "-r", "hard", "--samples", "0"}, {"--samples"});
     expect_misuse({"compare", "slab", "-r", "hard", "--samples", "many"}, {"--samples"});
     expect_misuse({"compare", "slab", "-r", "hard", "--repeat", "-1"}, {"--repeat"});
+}
+
+TEST(CommandLine, WithoutARecipeItTakesThoseThatNeedNoTuning) {
+    const CommandResult compared =
+        run_gnomon({"compare", "half-plane", "--size", "16x12", "--samples", "1", "--repeat", "1", "--json", "-"});
+    ASSERT_EQ(compared.status, 0) << compared.err;
+    std::string names;
+    for (const json& run : json::parse(compared.out).at("runs")) {
+        names += run.at("recipe").get<std::string>() + " " + run.at("status").get<std::string>() + " ";
+    }
+    EXPECT_EQ(names, "soft ok soft-quality ok pcf ok hard ok ");
+    expect_has(run_gnomon({"render", "--help"}).out, {"default: soft)"});
 }
 
 TEST(CommandLine, AloneItPrintsItsHelp) {

@@ -64,6 +64,39 @@ TEST(LookupSides, TheBlockersDistanceIsTheWayToWhereLightMeetsIt) {
     EXPECT_GT(blocked, 300U);
 }
 
+/// In `half-plane` the sheet hangs two metres above the ground and two below a light of a metre's width.
+TEST(LookupSides, AHalfPlanesPenumbraIsAsFarFromItsBlockerAndAsWideAsItIs) {
+    const test::ValidationGuard guard;
+    const Scene scene = load_scene("half-plane");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const CpuSamples samples = render_samples(test::device(), gpu, scene.camera(""), 64, 48);
+    const std::vector<std::string> names{"blocker-distance", "penumbra-width"};
+    for (const char* recipe : {"pcss", "vssm", "cssm", "sssm", "sssm,sssm.separable=false"}) {
+        const std::vector<Shown> shown =
+            show_hidden(test::device(), gpu, scene.camera(""), load_recipe(std::string(recipe) + ",resolution=256"), names,
+                        {.width = 64, .height = 48});
+        std::size_t penumbra = 0, lit = 0;
+        for (std::size_t i = 0; i < samples.position_ws.size(); ++i) {
+            const vec3 p_ws(samples.position_ws[i]);
+            const bool ground = samples.position_ws[i].w > 0.5F && std::abs(p_ws.y) < 1e-4F;
+            const float distance = shown[0].values.values[2 * i], width = shown[1].values.values[2 * i];
+            if (ground && p_ws.x > 0.6F) {
+                // Beyond the ramp's end and a texel nothing hides the light.
+                ASSERT_EQ(distance, 0) << recipe << " at " << p_ws.x;
+                ASSERT_EQ(width, 0) << recipe << " at " << p_ws.x;
+                ++lit;
+            } else if (ground && std::abs(p_ws.x) < 0.3F) {
+                ASSERT_NEAR(distance, 2, 0.1) << recipe << " at " << p_ws.x;
+                // w_l (d_r - d_o) / d_o, whose slope over the distance is 4 / d_o^2 = 1.
+                ASSERT_NEAR(width, 1, 0.1) << recipe << " at " << p_ws.x;
+                ++penumbra;
+            }
+        }
+        EXPECT_GT(penumbra, 100U) << recipe;
+        EXPECT_GT(lit, 100U) << recipe;
+    }
+}
+
 /// V from what the lookup told: half where the blocker is nearer than a metre and a quarter.
 Visibility add_near(const FrameInput& input, const Recipe&, const Visibility& given) {
     const Offer* distance = given.find("blocker-distance");

@@ -7,9 +7,12 @@
 #include "shadow/receiver/map_range.glsl"
 #include "tests/rig.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <tuple>
 
 namespace gn {
 namespace {
@@ -93,27 +96,31 @@ std::vector<float> floats_of(const std::vector<std::byte>& bytes) {
 
 TEST(Derived, EveryLevelOfThePyramidHoldsTheRangeUnderItsTexels) {
     const test::ValidationGuard guard;
-    for (const auto& [width, height] : {std::pair{16U, 16U}, {21U, 13U}, {7U, 1U}}) {
+    for (const auto& [width, height, begin] :
+         {std::tuple{16U, 16U, 0U}, {21U, 13U, 0U}, {7U, 1U, 0U}, {45U, 16U, 3U}, {7U, 1U, 3U}}) {
         Source source(width, height);
         FrameGraph graph(test::device());
-        const TextureHandle pyramid = add_min_max_pyramid(graph, source.draw(graph));
+        const TextureHandle pyramid = add_min_max_pyramid(graph, source.draw(graph), begin);
         graph.keep(pyramid);
         graph.execute(false);
         const std::uint32_t mips = graph.desc(pyramid).mips;
+        const auto side = [](std::uint32_t texels) { return static_cast<int>(texels); };
+        EXPECT_EQ(glsl::gn_pyramid_first(side(width), side(graph.desc(pyramid).width)),
+                  std::min(side(begin), side(std::bit_width(width)) - 1));
         for (std::uint32_t layer = 0; layer < 2; ++layer) {
-            for (std::uint32_t mip = 0; mip < mips; ++mip) {
-                const std::vector<vec2> level = pairs_of(graph.download(pyramid, mip, layer));
-                const int w = std::max(static_cast<int>(width >> mip), 1);
-                const int h = std::max(static_cast<int>(height >> mip), 1);
-                ASSERT_EQ(level.size(), static_cast<std::size_t>(w * h));
+            for (std::uint32_t level = begin; level < begin + mips; ++level) {
+                const std::vector<vec2> held = pairs_of(graph.download(pyramid, level - begin, layer));
+                const int w = std::max(static_cast<int>(width >> level), 1);
+                const int h = std::max(static_cast<int>(height >> level), 1);
+                ASSERT_EQ(held.size(), static_cast<std::size_t>(w * h));
                 for (int y = 0; y < h; ++y) {
                     for (int x = 0; x < w; ++x) {
                         // The last texel takes in what odd sides leave over.
-                        const ivec2 first(x << mip, y << mip);
-                        const ivec2 last(x == w - 1 ? static_cast<int>(width) - 1 : ((x + 1) << mip) - 1,
-                                         y == h - 1 ? static_cast<int>(height) - 1 : ((y + 1) << mip) - 1);
-                        EXPECT_EQ(level[static_cast<std::size_t>(y * w + x)], source.range(first, last, layer))
-                            << width << " x " << height << " mip " << mip << " texel " << x << ", " << y;
+                        const ivec2 first(x << level, y << level);
+                        const ivec2 last(x == w - 1 ? static_cast<int>(width) - 1 : ((x + 1) << level) - 1,
+                                         y == h - 1 ? static_cast<int>(height) - 1 : ((y + 1) << level) - 1);
+                        EXPECT_EQ(held[static_cast<std::size_t>(y * w + x)], source.range(first, last, layer))
+                            << width << " x " << height << " level " << level << " texel " << x << ", " << y;
                     }
                 }
             }

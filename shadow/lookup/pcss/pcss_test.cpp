@@ -160,6 +160,11 @@ TEST(PcssRendered, EarlyOutsChangeNoSample) {
             test::compare(scene, "pcss,resolution=512,pcss.early_out=false", {.width = 96, .height = 72, .samples = 4});
         EXPECT_EQ(with.visibility().values, without.visibility().values) << scene;
     }
+    // Blocks know less, and what they decide is as certain.
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 4};
+    const std::string blocks = "pcss,resolution=512,pcss.extremes=blocks";
+    EXPECT_EQ(test::compare("contact:light=spot", blocks, size).visibility().values,
+              test::compare("contact:light=spot", blocks + ",pcss.early_out=false", size).visibility().values);
 }
 
 }  // namespace
