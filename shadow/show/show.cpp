@@ -94,7 +94,9 @@ std::vector<Offer> add_sides(const FrameInput& input, const Recipe& recipe, cons
     map.part = recipe.map;
     add_derived(input, recipe, views, map);
     check_map_memory(input, recipe, map.texture());
-    const Visibility visibility = add_resolve(input, recipe, views, map);
+    const Visibility visibility = recipe.lookup->add_lookup != nullptr
+                                      ? recipe.lookup->add_lookup(input, recipe, views, map)
+                                      : add_resolve(input, recipe, views, map);
     for (const Offer& side : visibility.sides) {
         input.graph.keep(side.texture);
     }

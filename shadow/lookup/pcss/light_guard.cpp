@@ -9,6 +9,9 @@ namespace gn {
 
 Guard light_guard(const Light& light, const Box& bounds_ws, float least) {
     const GnLight& shape = light.shape;
+    if (least == 0 && shape.radius == 0 && shape.angular_radius == 0 && shape.half_size == vec2(0)) {
+        return {};
+    }
     if (shape.kind != GN_LIGHT_DIRECTIONAL) {
         const float size =
             shape.kind == GN_LIGHT_RECTANGLE ? std::max(shape.half_size.x, shape.half_size.y) : shape.radius;

@@ -48,9 +48,10 @@ GN_FN float gn_sssm_spread(GnLight light, vec3 p_ws, float before) {
     return light.kind == uint(GN_LIGHT_POINT) ? spread * gn_pcss_bulge(light.radius, blocker) : spread;
 }
 
-// Metres and spreads in [0,1], as rows hand them on; 1 where all of the light is hidden.
-GN_FN float gn_sssm_pack(float value) { return min(value / (1.0f + value), 0.9999f); }
-GN_FN float gn_sssm_unpack(float packed) { return packed / (1.0f - packed); }
+// Metres and spreads in [0,1], as rows hand them on; 1 where all of the light is hidden. A power of two keeps every bit, whatever
+// the unit of length.
+GN_FN float gn_sssm_pack(float value) { return min(value * 5.42101086e-20f, 0.5f); }
+GN_FN float gn_sssm_unpack(float packed) { return packed * 1.84467441e19f; }
 
 #ifdef __cplusplus
 }  // namespace gn::glsl
