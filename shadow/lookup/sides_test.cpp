@@ -73,8 +73,8 @@ TEST(LookupSides, AHalfPlanesPenumbraIsAsFarFromItsBlockerAndAsWideAsItIs) {
     const std::vector<std::string> names{"blocker-distance", "penumbra-width"};
     for (const char* recipe : {"pcss", "vssm", "cssm", "sssm", "sssm,sssm.separable=false"}) {
         const std::vector<Shown> shown =
-            show_hidden(test::device(), gpu, scene.camera(""), load_recipe(std::string(recipe) + ",resolution=256"), names,
-                        {.width = 64, .height = 48});
+            show_hidden(test::device(), gpu, scene.camera(""), load_recipe(std::string(recipe) + ",resolution=256"),
+                        names, {.width = 64, .height = 48});
         // The ramp ends at half a metre, and texels follow. A truncated series has waves beside its step, and finds a little
         // there that hides the light.
         const bool waves = std::string_view(recipe) == "cssm";

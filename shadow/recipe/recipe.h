@@ -31,7 +31,7 @@ struct Recipe {
     std::string title, paragraph, citation;
     const Part* light = nullptr;  ///< optional: splits a light into several
     const Part* placement =
-        nullptr;  ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
+        nullptr;                     ///< null: chosen by light kind (fit or cube); so are lights that it does not serve
     bool placement_or_auto = false;  ///< a scene without lights that it serves is no mistake: "cascades+auto"
     const Part* map = nullptr;
     const Part* lookup = nullptr;

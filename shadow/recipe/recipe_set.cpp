@@ -125,8 +125,8 @@ bool set_top_level(Recipe& recipe, std::string_view key, std::string_view value,
         const std::string_view first = without_blanks(value.substr(0, value.find('+')));
         const bool more = value.find('+') != std::string_view::npos;
         if (more && (first == "auto" || without_blanks(value.substr(value.find('+') + 1)) != "auto")) {
-            fail("{}: placement = {} is not valid; behind a placement may stand +auto alone, as in cascades+auto", where,
-                 value);
+            fail("{}: placement = {} is not valid; behind a placement may stand +auto alone, as in cascades+auto",
+                 where, value);
         }
         recipe.placement = named_part(Stage::placement, first, "auto", where);
         recipe.placement_or_auto = more;

@@ -106,7 +106,8 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
     for (const Light& light : scene.lights) {
         if (light.shape.kind != GN_LIGHT_RECTANGLE && light.shape.kind != GN_LIGHT_ENVIRONMENT) {
             return fmt::format(
-                "light 'split' leaves '{}' whole: only rectangles have pieces of their own shape; split.round=true cuts "
+                "light 'split' leaves '{}' whole: only rectangles have pieces of their own shape; split.round=true "
+                "cuts "
                 "others into four that overlap",
                 light.name);
         }
@@ -128,9 +129,10 @@ const Part& light_split() {
         p.params = param_table<GnSplitParams>({
             GN_PARAM(GnSplitParams, side, integer, 1, 8, "",
                      "Pieces along each side: more maps see more of what casts, cost grows with the square."),
-            GN_PARAM(GnSplitParams, round, boolean, 0, 1, "",
-                     "Discs, spheres and suns, too, are cut, into four of half their radius where `side` is above 1; else "
-                     "they stay whole."),
+            GN_PARAM(
+                GnSplitParams, round, boolean, 0, 1, "",
+                "Discs, spheres and suns, too, are cut, into four of half their radius where `side` is above 1; else "
+                "they stay whole."),
         });
         p.params_type = "GnSplitParams";
         p.glsl = "shadow/light/split/split.glsl";

@@ -47,8 +47,8 @@ TEST(Split, RoundPiecesSpreadAsTheLightDoes) {
         for (const dvec3& axis : {across, glm::cross(along, across)}) {
             double mean = 0, square = 0;
             for (const Light& piece : pieces) {
-                const double at = glm::dot(
-                    axis, dvec3(sun ? vec3(piece.shape.direction_ws) : vec3(piece.shape.position_ws)));
+                const double at =
+                    glm::dot(axis, dvec3(sun ? vec3(piece.shape.direction_ws) : vec3(piece.shape.position_ws)));
                 const double half = sun ? piece.shape.angular_radius : piece.shape.radius;
                 mean += at / 4;
                 square += (at * at + half * half / 4) / 4;
@@ -68,7 +68,8 @@ TEST(SplitRendered, PiecesSeeMoreThanTheWhole) {
     const auto split = test::compare("overlap", "backprojection,resolution=512,light=split", options);
     EXPECT_LT(*split.errors.rmse, 0.7 * *whole.errors.rmse);
     // A sphere of pieces that overlap errs less than as a whole, too.
-    const auto round = test::compare("overlap:light=point", "pcss,resolution=512,light=split,split.round=true", options);
+    const auto round =
+        test::compare("overlap:light=point", "pcss,resolution=512,light=split,split.round=true", options);
     const auto sphere = test::compare("overlap:light=point", "pcss,resolution=512", options);
     EXPECT_LT(*round.errors.rmse, 0.7 * *sphere.errors.rmse);
 }
