@@ -44,7 +44,8 @@ TEST(CommandLine, WithoutARecipeItTakesThoseThatNeedNoTuning) {
         run_gnomon({"compare", "half-plane", "--size", "16x12", "--samples", "1", "--repeat", "1", "--json", "-"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     std::string names;
-    for (const json& run : json::parse(compared.out).at("runs")) {
+    const json figures = json::parse(compared.out);
+    for (const json& run : figures.at("runs")) {
         names += run.at("recipe").get<std::string>() + " " + run.at("status").get<std::string>() + " ";
     }
     EXPECT_EQ(names, "soft ok soft-quality ok pcf ok hard ok ");
