@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# What nearly every source includes of the standard library and of others is parsed once a build: gn_precompiled(target)
-# for libraries, gn_precompiled(target COMMAND) for the command, gn_precompiled(target TESTS) for suites. Only headers
-# that never change here stand in the lists, so that editing one of ours rebuilds what includes it and nothing else;
-# headers_alone keeps every header honest without them.
+# What nearly every source includes is parsed once a build: gn_precompiled(target KIND), where KIND is LIBRARY, FRAME (what
+# sees a frame), COMMAND, SUITE or FRAME_SUITE. Most stand in the lists because they never change here. The few headers of
+# ours are included, by way of others, by nearly every source of their kind, so that editing them rebuilds all of it anyway;
+# headers_alone keeps every header honest without the lists.
 option(GNOMON_PRECOMPILED "Precompile the headers of others" ON)
 
 set(gn_precompiled_headers
@@ -11,28 +11,31 @@ set(gn_precompiled_headers
     <vulkan/vulkan.h>)
 
 # One empty library owns each precompiled header; the others must compile with the same options to use it.
-function(gn_precompile name options)
+function(gn_precompile kind options)
+  set(name gn_precompiled_${kind})
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "// Owns the precompiled header.\n")
   add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${options} fmt::fmt Vulkan::Vulkan)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_precompile_headers(${name} PRIVATE ${gn_precompiled_headers} ${ARGN})
 endfunction()
 
 if(GNOMON_PRECOMPILED)
-  gn_precompile(gn_precompiled_libraries gn_options)
-  gn_precompile(gn_precompiled_command gn_command_options)
-  # Named without the folder of this checkout, so that a compiler cache serves all checkouts of a machine.
-  gn_precompile(gn_precompiled_suites gn_options <gtest/gtest.h> <tests/printers.h>)
-  target_include_directories(gn_precompiled_suites PRIVATE ${CMAKE_SOURCE_DIR})
-  target_link_libraries(gn_precompiled_suites PRIVATE GTest::gtest)
-  target_compile_definitions(gn_precompiled_suites PRIVATE _GLIBCXX_ASSERTIONS)
+  # Ours are named without the folder of this checkout, so that a compiler cache serves all checkouts of a machine.
+  gn_precompile(LIBRARY gn_options)
+  gn_precompile(FRAME gn_options <shadow/frame/frame.h>)
+  gn_precompile(COMMAND gn_command_options <nlohmann/json.hpp> <spdlog/spdlog.h> <shadow/frame/frame.h>)
+  gn_precompile(SUITE gn_options <gtest/gtest.h> <tests/printers.h>)
+  gn_precompile(FRAME_SUITE gn_options <gtest/gtest.h> <tests/printers.h> <tests/rig.h>)
+  target_link_libraries(gn_precompiled_COMMAND PRIVATE spdlog::spdlog)
+  foreach(kind SUITE FRAME_SUITE)
+    target_link_libraries(gn_precompiled_${kind} PRIVATE GTest::gtest)
+    target_compile_definitions(gn_precompiled_${kind} PRIVATE _GLIBCXX_ASSERTIONS)
+  endforeach()
 endif()
 
-function(gn_precompiled target)
-  set(owner_TESTS suites)
-  set(owner_COMMAND command)
-  set(owner_ libraries)
+function(gn_precompiled target kind)
   if(GNOMON_PRECOMPILED)
-    target_precompile_headers(${target} REUSE_FROM gn_precompiled_${owner_${ARGN}})
+    target_precompile_headers(${target} REUSE_FROM gn_precompiled_${kind})
   endif()
 endfunction()

@@ -4,9 +4,9 @@
 enable_testing()
 set(gn_suites "")
 
-# gn_suite(name SOURCES ... LINK ...): nothing when there are no sources.
+# gn_suite(name SOURCES ... LINK ... [PRECOMPILED kind]): nothing when there are no sources.
 function(gn_suite name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "PRECOMPILED" "SOURCES;LINK" ${ARGN})
   if(NOT arg_SOURCES)
     return()
   endif()
@@ -15,7 +15,10 @@ function(gn_suite name)
   # Reading an absent figure ends the suite, it does not compare rubbish.
   target_compile_definitions(${name} PRIVATE _GLIBCXX_ASSERTIONS)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a fifth less to compile, nothing slower to run
-  gn_precompiled(${name} TESTS)
+  if(NOT arg_PRECOMPILED)
+    set(arg_PRECOMPILED SUITE)
+  endif()
+  gn_precompiled(${name} ${arg_PRECOMPILED})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT "${gn_test_environment}")
   set(gn_suites "${gn_suites}${name} $<TARGET_FILE:${name}>\n" PARENT_SCOPE)
@@ -49,7 +52,7 @@ list(FILTER rig_sources EXCLUDE REGEX "_test\\.cpp$|printers\\.cpp$")
 add_library(gn_rig STATIC ${rig_sources})
 target_link_libraries(gn_rig PUBLIC gn_shadow gn_reference gn_metrics GTest::gtest PRIVATE gn_options)
 target_compile_definitions(gn_rig PRIVATE _GLIBCXX_ASSERTIONS)
-gn_precompiled(gn_rig TESTS)
+gn_precompiled(gn_rig FRAME_SUITE)
 # The laws of parts are figures, which sanitizers do not look at: with them one suite draws every recipe at the ends of its
 # parameters, and those of what lives over frames and beyond the boundary run whole.
 if(GNOMON_SANITIZE)
@@ -64,7 +67,7 @@ foreach(folder ${tested_folders})
   list(APPEND shadow_test_globs ${folder}/*_test.cpp)
 endforeach()
 file(GLOB shadow_tests CONFIGURE_DEPENDS ${shadow_test_globs})
-gn_suite(part_tests SOURCES ${shadow_tests} ${part_tests} LINK gn_rig)
+gn_suite(part_tests SOURCES ${shadow_tests} ${part_tests} LINK gn_rig PRECOMPILED FRAME_SUITE)
 # The command is tested from outside, so that the suite of one build tests the commands of all (tools/run_tests).
 if(NOT GNOMON_SANITIZE)
   file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
