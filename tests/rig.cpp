@@ -29,6 +29,11 @@ std::vector<std::string> drawn_recipes() {
     return picked(recipe_names());
 }
 
+std::string with_few_points(const Recipe& recipe, const std::string& text) {
+    const bool has_many = recipe.light != nullptr && recipe.light->id == "accumulate" && !thorough();
+    return text + (has_many ? ",accumulate.lights=4" : "");
+}
+
 Comparison::Comparison(Scene given) : scene(std::move(given)) {}
 Comparison::Comparison(Comparison&&) noexcept = default;
 Comparison::~Comparison() = default;

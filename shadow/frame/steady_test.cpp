@@ -76,9 +76,7 @@ std::string small_maps(const std::string& name) {
     const Recipe recipe = load_recipe(name);
     const bool has_map =
         recipe.map != nullptr || (recipe.direct != nullptr && holds(recipe.direct->reads, "resolution"));
-    // Four points of a light are a loop as well as sixty-four are.
-    const bool has_many = recipe.light != nullptr && recipe.light->id == "accumulate" && !test::thorough();
-    return name + (has_map ? ",resolution=128" : "") + (has_many ? ",accumulate.lights=4" : "");
+    return test::with_few_points(recipe, name) + (has_map ? ",resolution=128" : "");
 }
 
 class Steady : public testing::TestWithParam<std::string> {};
