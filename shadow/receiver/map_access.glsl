@@ -83,5 +83,20 @@ bool gn_lit_tap(sampler2DArray depth, GnLookup at, vec2 tap_ts) {
 }
 
 #endif
+
+// The lookup that reads a tap, and where the tap is in its view: the receiver's own, or beyond its view, where kernels cross
+// views, that which serves the tap.
+GnLookup gn_tap_reader(GnLookup at, vec2 tap_ts, out vec2 uv_ts) {
+    uv_ts = tap_ts;
+#ifdef GN_CROSSING
+    if (!gn_within_view(at.projected, tap_ts, tap_ts)) {
+        GnLookup tap = gn_at_tap(at, tap_ts);
+        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? tap_ts : tap.projected.uv_ts;
+        return tap;
+    }
+#endif
+    return at;
+}
+
 #endif
 #endif

@@ -107,8 +107,7 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
         if (light.shape.kind != GN_LIGHT_RECTANGLE && light.shape.kind != GN_LIGHT_ENVIRONMENT) {
             return fmt::format(
                 "light 'split' leaves '{}' whole: only rectangles have pieces of their own shape; split.round=true "
-                "cuts "
-                "others into four that overlap",
+                "cuts others into four that overlap",
                 light.name);
         }
     }

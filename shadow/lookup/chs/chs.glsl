@@ -87,14 +87,8 @@ void gn_chs_add(GnLookup at, GnLookup tap, vec3 axis, vec2 middle_ts, vec2 uv_ts
 // One texel of a mip, by its middle on the map.
 void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, vec3 axis, vec2 middle_ts, int level,
                   float weight, GnChsParams params, inout GnChsSum sum) {
-    GnLookup tap = at;
-    vec2 uv_ts = middle_ts;
-#ifdef GN_CROSSING
-    if (!gn_within_view(at.projected, middle_ts, middle_ts)) {
-        tap = gn_at_tap(at, middle_ts);
-        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? middle_ts : tap.projected.uv_ts;
-    }
-#endif
+    vec2 uv_ts;
+    GnLookup tap = gn_tap_reader(at, middle_ts, uv_ts);
     float texel_ts = tap.projected.texel_ts;
     float side_ts = texel_ts * float(1 << level);
     vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * texel_ts;

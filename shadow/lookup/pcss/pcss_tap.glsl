@@ -18,14 +18,8 @@ struct GnPcssTap {
 };
 
 GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, vec3 axis, vec2 tap_ts) {
-    GnLookup tap = at;
-    vec2 uv_ts = tap_ts;
-#ifdef GN_CROSSING
-    if (!gn_within_view(at.projected, tap_ts, tap_ts)) {
-        tap = gn_at_tap(at, tap_ts);
-        uv_ts = tap.receiver.p_ws == at.receiver.p_ws ? tap_ts : tap.projected.uv_ts;
-    }
-#endif
+    vec2 uv_ts;
+    GnLookup tap = gn_tap_reader(at, tap_ts, uv_ts);
     vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
     ivec2 texel = ivec2(floor(clamp(uv_ts, tap.projected.bounds_ts.xy, last_ts) / tap.projected.texel_ts));
     float occluder = gn_map_texel(depth, tap, texel).r;
