@@ -100,6 +100,18 @@ TEST(KeptMap, IsDrawnAnewWhereSomethingChanged) {
     }
 }
 
+TEST(KeptMap, FollowsAPlacementThatFollowsTheCamera) {
+    Sequence sequence{load_scene(lamp)};
+    const std::string recipe = "pcf,placement=fit,resolution=128";
+    EXPECT_GT(sequence.next(recipe), 0);
+    EXPECT_EQ(sequence.next(recipe), 0);
+    // Nearer to what it looks at it sees less of it, and the map is fitted to that.
+    Camera& camera = sequence.scene.cameras.front();
+    camera.position_ws += 2.0F * camera.forward_ws;
+    EXPECT_GT(sequence.next(recipe), 0);
+    EXPECT_EQ(sequence.next(recipe), 0);
+}
+
 TEST(KeptMap, FollowsParametersAndNotTheLampsBrightness) {
     Sequence sequence{load_scene(lamp)};
     EXPECT_GT(sequence.next("vsm,vsm.radius=1,resolution=128"), 0);

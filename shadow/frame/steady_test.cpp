@@ -105,6 +105,10 @@ TEST_P(Steady, FramesCreateNothing) {
     }
 }
 
+/// Maps that the camera takes along and that are drawn where it newly looks.
+INSTANTIATE_TEST_SUITE_P(Kept, Steady, testing::Values("cascades,cascades.scroll=1"),
+                         [](const auto&) { return std::string("cascades_scroll"); });
+
 INSTANTIATE_TEST_SUITE_P(Recipes, Steady, testing::ValuesIn(test::drawn_recipes()), [](const auto& test) {
     std::string name = test.param;
     std::replace(name.begin(), name.end(), '-', '_');
