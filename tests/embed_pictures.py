@@ -60,8 +60,9 @@ def compare(name, picture, expected, least):
     return sum(counts.values())
 
 
-def wall_picture(rim, width=320, height=240, yfov=0.9):
-    """A floor of 8 x 8 metres and a wall of 2 x 2 under a sun (examples/embed/offline.cpp). Nothing has no light either.
+def wall_picture(rim, wall_x=0, width=320, height=240, yfov=0.9):
+    """A floor of 8 x 8 metres and a wall of 2 x 2 under a sun (examples/embed/offline.cpp), its middle at wall_x. Nothing has
+    no light either.
     Where `rim` is set, pixels beside another surface are not decided: a normal told from depth there may be the other's."""
     length = math.hypot(5, 7)
     ahead, above = (-5 / length, -7 / length), (7 / length, -5 / length)  # the camera's axes: y and z; x is the world's
@@ -71,12 +72,12 @@ def wall_picture(rim, width=320, height=240, yfov=0.9):
     reach = 0.02
 
     def wall_at(x, y):
-        return abs(x) <= 1 and 0 <= y <= 2
+        return abs(x - wall_x) <= 1 and 0 <= y <= 2
 
     def floor_at(x, z):
         if abs(x) > 4 or abs(z) > 4:
             return "dark"
-        return "dark" if abs(x) < 1 and 0 < z < 2 else "lit"
+        return "dark" if abs(x - wall_x) < 1 and 0 < z < 2 else "lit"
 
     around = [(-1, -1), (1, -1), (-1, 1), (1, 1)]
 

@@ -111,26 +111,34 @@ static void create_device(Host* host) {
     vkGetDeviceQueue(host->device, host->queue_family, 0, &host->queue);
 }
 
+static void create_slot(const Host* host, Slot* slot) {
+    const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .queueFamilyIndex = host->queue_family};
+    check(vkCreateCommandPool(host->device, &pool, NULL, &slot->pool), "vkCreateCommandPool");
+    const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                  .commandPool = slot->pool,
+                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                  .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(host->device, &commands, &slot->commands), "vkAllocateCommandBuffers");
+    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .flags = VK_FENCE_CREATE_SIGNALED_BIT};
+    check(vkCreateFence(host->device, &fence, NULL, &slot->fence), "vkCreateFence");
+}
+
 void host_create(Host* host, bool validate) {
     *host = (Host){0};
     create_instance(host, validate);
     choose(host);
     create_device(host);
-    const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                          .queueFamilyIndex = host->queue_family};
-    check(vkCreateCommandPool(host->device, &pool, NULL, &host->pool), "vkCreateCommandPool");
-    const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                  .commandPool = host->pool,
-                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                  .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(host->device, &commands, &host->commands), "vkAllocateCommandBuffers");
-    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(vkCreateFence(host->device, &fence, NULL, &host->fence), "vkCreateFence");
+    for (uint32_t i = 0; i < slots; ++i) {
+        create_slot(host, &host->slots[i]);
+    }
 }
 
 void host_destroy(Host* host) {
-    vkDestroyFence(host->device, host->fence, NULL);
-    vkDestroyCommandPool(host->device, host->pool, NULL);
+    for (uint32_t i = 0; i < slots; ++i) {
+        vkDestroyFence(host->device, host->slots[i].fence, NULL);
+        vkDestroyCommandPool(host->device, host->slots[i].pool, NULL);
+    }
     vkDestroyDevice(host->device, NULL);
     if (host->messenger != VK_NULL_HANDLE) {
         const PFN_vkDestroyDebugUtilsMessengerEXT destroy = (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
@@ -140,20 +148,27 @@ void host_destroy(Host* host) {
     vkDestroyInstance(host->instance, NULL);
 }
 
-void host_begin(Host* host) {
-    check(vkResetCommandPool(host->device, host->pool, 0), "vkResetCommandPool");
-    const VkCommandBufferBeginInfo once = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                           .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(host->commands, &once), "vkBeginCommandBuffer");
+void host_wait(const Host* host, uint32_t slot) {
+    check(vkWaitForFences(host->device, 1, &host->slots[slot].fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
 }
 
-void host_submit(Host* host) {
-    check(vkEndCommandBuffer(host->commands), "vkEndCommandBuffer");
+VkCommandBuffer host_begin(const Host* host, uint32_t slot) {
+    const Slot* own = &host->slots[slot];
+    host_wait(host, slot);
+    check(vkResetCommandPool(host->device, own->pool, 0), "vkResetCommandPool");
+    const VkCommandBufferBeginInfo once = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                           .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(own->commands, &once), "vkBeginCommandBuffer");
+    return own->commands;
+}
+
+void host_submit(const Host* host, uint32_t slot) {
+    const Slot* own = &host->slots[slot];
+    check(vkEndCommandBuffer(own->commands), "vkEndCommandBuffer");
+    check(vkResetFences(host->device, 1, &own->fence), "vkResetFences");
     const VkSubmitInfo info = {
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &host->commands};
-    check(vkQueueSubmit(host->queue, 1, &info, host->fence), "vkQueueSubmit");
-    check(vkWaitForFences(host->device, 1, &host->fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-    check(vkResetFences(host->device, 1, &host->fence), "vkResetFences");
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &own->commands};
+    check(vkQueueSubmit(host->queue, 1, &info, own->fence), "vkQueueSubmit");
 }
 
 static VkDeviceMemory allocate(const Host* host, VkMemoryRequirements needs, VkMemoryPropertyFlags wanted) {

@@ -9,7 +9,14 @@
 #include <stdint.h>
 #include <vulkan/vulkan.h>
 
-enum { width = 320, height = 240 };
+enum { width = 320, height = 240, slots = 2 };
+
+/* What a frame in flight has of its own. */
+typedef struct Slot {
+    VkCommandPool pool;
+    VkCommandBuffer commands;
+    VkFence fence; /* open where nothing of the slot is under way */
+} Slot;
 
 typedef struct Host {
     VkInstance instance;
@@ -22,9 +29,7 @@ typedef struct Host {
     VkPhysicalDeviceVulkan12Features features_12;
     VkPhysicalDeviceVulkan13Features features_13;
     unsigned messages; /* of validation, printed as they come */
-    VkCommandPool pool;
-    VkCommandBuffer commands;
-    VkFence fence;
+    Slot slots[slots];
 } Host;
 
 typedef struct Buffer {
@@ -49,9 +54,11 @@ void check(VkResult result, const char* call);
 /* `host` stays where it is: the device's features are chained in it. */
 void host_create(Host* host, bool validate);
 void host_destroy(Host* host);
-/* Begins the frame's commands; submits them and waits. */
-void host_begin(Host* host);
-void host_submit(Host* host);
+/* Waits until the device has finished with what the slot submitted last, and begins the slot's commands anew. */
+VkCommandBuffer host_begin(const Host* host, uint32_t slot);
+void host_submit(const Host* host, uint32_t slot);
+/* Waits for one slot. */
+void host_wait(const Host* host, uint32_t slot);
 
 Buffer buffer_create(const Host* host, VkDeviceSize bytes, VkBufferUsageFlags usage, const void* data);
 void buffer_destroy(const Host* host, Buffer* buffer);

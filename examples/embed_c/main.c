@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* A host in C: it draws depth alone, has one frame in flight, and takes a sun's shadow from Gnomon through gnomon.h.
+/* A host in C: it draws depth alone, has two frames in flight, and takes a sun's shadow from Gnomon through gnomon.h.
  *
- *     embed_c shadow.pgm [--validate]
+ *     embed_c before.pgm shadow.pgm [--validate]
  *
- * A wall of 2 x 2 metres stands on a floor of 8 x 8; the sun comes from behind it, 45 degrees high. Status 0: all is well. 1: it
- * failed, or validation had something to say. 2: Gnomon refused. */
+ * A wall of 2 x 2 metres glides over a floor of 8 x 8; the sun comes from behind it, 45 degrees high. V of the last two frames, one
+ * of each slot, becomes pictures. Status 0: all is well. 1: it failed, or validation had something to say. 2: Gnomon refused. */
 #include "host.h"
 
 #include "shadow/embed/gnomon.h"
@@ -20,13 +20,15 @@ static const uint32_t indices[] = {0, 2, 1, 0, 3, 2, 0, 1, 2, 0, 2, 3};
 static const GnomonObject objects[] = {{.first_index = 0, .index_count = 6, .first_vertex = 0, .vertex_count = 4},
                                        {.first_index = 6, .index_count = 6, .first_vertex = 4, .vertex_count = 4}};
 enum { object_count = 2 };
-/* Where they are: columns of matrices. */
-static const float transforms[object_count][16] = {{4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1},
-                                                   {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+/* Where they are in a frame: columns of matrices. */
+typedef float Transforms[object_count][16];
+enum { frames = 8, warm_frames = 2 };
 
 typedef struct Renderer {
     Host host;
-    Buffer positions, indices, transforms;
+    Buffer positions, indices;
+    Buffer transforms[slots]; /* written while the frame before may still be read */
+    Buffer pixels[slots];     /* V, copied there */
     Image depth, visibility;
     Pipeline pipeline;
     float cs_from_ws[16];
@@ -63,7 +65,10 @@ static void create(Renderer* r, bool validate) {
     const VkBufferUsageFlags lent = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     r->positions = buffer_create(&r->host, sizeof positions, lent | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, positions);
     r->indices = buffer_create(&r->host, sizeof indices, lent | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, indices);
-    r->transforms = buffer_create(&r->host, sizeof transforms, lent, transforms);
+    for (int i = 0; i < slots; ++i) {
+        r->transforms[i] = buffer_create(&r->host, sizeof(Transforms), lent, NULL);
+        r->pixels[i] = buffer_create(&r->host, width * height, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL);
+    }
     r->depth = image_create(&r->host, VK_FORMAT_D32_SFLOAT,
                             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                             VK_IMAGE_ASPECT_DEPTH_BIT);
@@ -78,14 +83,23 @@ static void destroy(Renderer* r) {
     pipeline_destroy(&r->host, &r->pipeline);
     image_destroy(&r->host, &r->visibility);
     image_destroy(&r->host, &r->depth);
-    buffer_destroy(&r->host, &r->transforms);
+    for (int i = 0; i < slots; ++i) {
+        buffer_destroy(&r->host, &r->pixels[i]);
+        buffer_destroy(&r->host, &r->transforms[i]);
+    }
     buffer_destroy(&r->host, &r->indices);
     buffer_destroy(&r->host, &r->positions);
     host_destroy(&r->host);
 }
 
-static void draw_depth(Renderer* r) {
-    const VkCommandBuffer commands = r->host.commands;
+/* The wall is 40 cm further to the right in every frame, and stands at 1 m in the last. */
+static void pose(float transforms[object_count][16], int frame) {
+    const float x = 1 - 0.4F * (float)(frames - 1 - frame);
+    const Transforms posed = {{4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1}};
+    memcpy(transforms, posed, sizeof posed);
+}
+
+static void draw_depth(const Renderer* r, VkCommandBuffer commands, float transforms[object_count][16]) {
     const VkImageMemoryBarrier2 begin = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                                          .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                          .dstStageMask = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
@@ -146,7 +160,7 @@ static GnomonShadows* create_shadows(const Renderer* r) {
                              .width = width,
                              .height = height,
                              .lights = 1,
-                             .frames_in_flight = 1,
+                             .frames_in_flight = slots,
                              .normals = GNOMON_NORMALS_NONE,
                              .baked = EMBED_BAKED};
     GnomonShadows* shadows = NULL;
@@ -154,7 +168,8 @@ static GnomonShadows* create_shadows(const Renderer* r) {
     return shadows;
 }
 
-static void record_shadows(const Renderer* r, GnomonShadows* shadows) {
+static void record_shadows(const Renderer* r, VkCommandBuffer commands, GnomonShadows* shadows, int number) {
+    const uint32_t slot = (uint32_t)number % slots;
     const float half = sqrtf(0.5F);
     const GnomonLight sun = {.kind = GNOMON_LIGHT_DIRECTIONAL,
                              .direction_ws = {0, -half, half},
@@ -163,61 +178,88 @@ static void record_shadows(const Renderer* r, GnomonShadows* shadows) {
     GnomonFrame frame = {.size = sizeof(GnomonFrame),
                          .object_size = sizeof(GnomonObject),
                          .light_size = sizeof(GnomonLight),
+                         .slot = slot,
                          .width = width,
                          .height = height,
                          .depth = {r->depth.image, VK_FORMAT_D32_SFLOAT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},
                          .positions = {r->positions.buffer, 0, r->positions.bytes},
                          .indices = {r->indices.buffer, 0, r->indices.bytes},
-                         .transforms = {r->transforms.buffer, 0, r->transforms.bytes},
+                         .transforms = {r->transforms[slot].buffer, 0, r->transforms[slot].bytes},
                          .stride = 3 * sizeof(float),
                          .object_count = object_count,
                          .light_count = 1,
                          .objects = objects,
                          .lights = &sun,
+                         .poses = (uint64_t)number,
                          .bounds_min_ws = {-4, 0, -4},
                          .bounds_max_ws = {4, 2, 4}};
     memcpy(frame.cs_from_ws, r->cs_from_ws, sizeof frame.cs_from_ws);
     const char* refused = NULL;
-    demand(gnomon_record(shadows, r->host.commands, &frame, &refused));
+    demand(gnomon_record(shadows, commands, &frame, &refused));
     demand(refused);
 }
 
-/* V as a grey picture, after the frame has completed. */
-static void write_picture(Renderer* r, const char* path) {
-    Buffer pixels = buffer_create(&r->host, width * height, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL);
-    host_begin(&r->host);
+/* Copies V to where the host will read it. */
+static void copy_visibility(const Renderer* r, VkCommandBuffer commands, VkBuffer pixels) {
     const VkBufferImageCopy all = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {width, height, 1}};
-    vkCmdCopyImageToBuffer(r->host.commands, r->visibility.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels.buffer, 1,
-                           &all);
-    host_submit(&r->host);
+    vkCmdCopyImageToBuffer(commands, r->visibility.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels, 1, &all);
+    const VkMemoryBarrier2 read = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo dependency = {
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &read};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+/* One frame: waits for the one before the last, and for nothing else. */
+static void draw_frame(Renderer* r, GnomonShadows* shadows, int number) {
+    const uint32_t slot = (uint32_t)number % slots;
+    const VkCommandBuffer commands = host_begin(&r->host, slot);
+    Transforms transforms;
+    pose(transforms, number);
+    memcpy(r->transforms[slot].mapped, transforms, sizeof transforms);
+    draw_depth(r, commands, transforms);
+    record_shadows(r, commands, shadows, number);
+    copy_visibility(r, commands, r->pixels[slot].buffer);
+    host_submit(&r->host, slot);
+}
+
+/* V of a frame as a grey picture. */
+static void write_picture(const Renderer* r, int number, const char* path) {
+    const uint32_t slot = (uint32_t)number % slots;
+    host_wait(&r->host, slot);
     FILE* file = fopen(path, "wb");
     if (file == NULL || fprintf(file, "P5 %d %d 255\n", width, height) < 0 ||
-        fwrite(pixels.mapped, 1, width * height, file) != width * height || fclose(file) != 0) {
+        fwrite(r->pixels[slot].mapped, 1, width * height, file) != width * height || fclose(file) != 0) {
         fprintf(stderr, "embed_c: the picture '%s' cannot be written\n", path);
         exit(1);
     }
-    buffer_destroy(&r->host, &pixels);
 }
 
 int main(int argc, char** argv) {
-    if (argc < 2) {
-        fprintf(stderr, "embed_c: name a picture to write: embed_c shadow.pgm [--validate]\n");
+    if (argc < 3) {
+        fprintf(stderr, "embed_c: name two pictures to write: embed_c before.pgm shadow.pgm [--validate]\n");
         return 1;
     }
     Renderer renderer;
-    create(&renderer, argc > 2 && strcmp(argv[2], "--validate") == 0);
+    create(&renderer, argc > 3 && strcmp(argv[3], "--validate") == 0);
     GnomonShadows* shadows = create_shadows(&renderer);
-    for (int i = 0; i < 4; ++i) {
-        host_begin(&renderer.host);
-        draw_depth(&renderer);
-        record_shadows(&renderer, shadows);
-        host_submit(&renderer.host);
+    GnomonCounters warm = {0};
+    for (int i = 0; i < frames; ++i) {
+        draw_frame(&renderer, shadows, i);
+        warm = i == warm_frames - 1 ? gnomon_counters(shadows) : warm;
     }
-    write_picture(&renderer, argv[1]);
+    const GnomonCounters last = gnomon_counters(shadows);
+    const bool steady = memcmp(&warm, &last, sizeof last) == 0;
+    write_picture(&renderer, frames - 2, argv[1]);
+    write_picture(&renderer, frames - 1, argv[2]);
     gnomon_destroy(shadows);
     destroy(&renderer);
-    printf("%s, %u messages of validation\n", argv[1], renderer.host.messages);
+    printf("%s and %s, %u messages of validation, created in the last %d frames: %s\n", argv[1], argv[2],
+           renderer.host.messages, frames - warm_frames, steady ? "nothing" : "something");
     return renderer.host.messages == 0 ? 0 : 1;
 }
