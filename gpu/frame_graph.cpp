@@ -22,7 +22,9 @@ struct FrameGraph::Impl {
     std::vector<Answer> answers;
     std::vector<std::shared_ptr<const void>> objects;  ///< that passes use
     std::string group;
+    bool rests = false;
     Rounds texture_rounds, buffer_rounds;
+    PassRounds pass_rounds;
 
     GraphPlan plan;
     bool stale = true;  ///< declarations changed since the plan was made
@@ -77,9 +79,12 @@ struct FrameGraph::Impl {
     /// Lets the passes that somebody reads record into what records nothing.
     void run_through(SilentRecorder& recorder) const {
         for (const std::uint32_t pass : living_passes(declaration)) {
-            if (executes[pass]) {
-                recorder.begin(declaration.passes[pass]);
-                executes[pass](recorder);
+            const Calls calls = calls_of(declaration, pass);
+            for (std::uint32_t round = 0; round < calls.rounds; ++round) {
+                if (const Execute& execute = executes[calls.first + round * calls.step]) {
+                    recorder.begin(declaration.passes[pass]);
+                    execute(recorder);
+                }
             }
         }
     }
@@ -134,16 +139,19 @@ BufferHandle FrameGraph::create(const BufferDesc& wanted) {
 void FrameGraph::begin_rounds() {
     impl_->texture_rounds.begin();
     impl_->buffer_rounds.begin();
+    impl_->pass_rounds.begin();
 }
 
 void FrameGraph::next_round() {
     impl_->texture_rounds.next();
     impl_->buffer_rounds.next();
+    impl_->pass_rounds.next(impl_->declaration);
 }
 
 void FrameGraph::end_rounds() {
     impl_->texture_rounds.end();
     impl_->buffer_rounds.end();
+    impl_->pass_rounds.end(impl_->declaration);
 }
 
 TextureHandle FrameGraph::import(Texture2D& texture) {
@@ -178,7 +186,7 @@ bool FrameGraph::imported(TextureHandle texture) const {
 }
 
 void FrameGraph::place(TextureHandle texture, const std::function<Texture2D&(const TextureDesc&)>& give) {
-    GN_CHECK(!imported(texture));
+    GN_CHECK(!imported(texture) && !impl_->pass_rounds.running());
     DeclaredTexture& declared = impl_->declaration.textures[texture.index];
     TextureDesc desc = declared.desc;
     desc.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -212,12 +220,20 @@ const std::string& FrameGraph::group() const {
     return impl_->group;
 }
 
+void FrameGraph::rest(bool rests) {
+    impl_->rests = rests;
+}
+
 void FrameGraph::add_pass(std::string name, const std::function<void(PassBuilder&)>& setup,
                           std::function<void(Recorder&)> execute) {
-    DeclaredPass pass{.name = std::move(name), .group = impl_->group};
+    DeclaredPass pass{.name = std::move(name), .group = impl_->group, .uses = {}, .rests = impl_->rests};
     DeclaredPassBuilder builder(impl_->declaration, pass);
     setup(builder);
-    impl_->declaration.passes.push_back(std::move(pass));
+    if (impl_->pass_rounds.running()) {
+        impl_->pass_rounds.add(std::move(pass));
+    } else {
+        impl_->declaration.passes.push_back(std::move(pass));
+    }
     impl_->executes.push_back(std::move(execute));
     impl_->stale = true;
 }
@@ -236,6 +252,9 @@ void FrameGraph::keep(BufferHandle buffer) {
 
 void FrameGraph::answer(BufferHandle buffer, std::function<void(std::span<const std::byte>)> receive) {
     keep(buffer);
+    if (impl_->rests) {
+        return;  // nobody writes it
+    }
     impl_->answers.push_back({buffer.index, std::move(receive)});
 }
 

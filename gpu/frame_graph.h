@@ -51,6 +51,7 @@ struct ClearValue {
     float depth = 0.0F;
     std::uint32_t stencil = 0;
     uvec4 bits{0};  ///< for integer formats
+    bool operator==(const ClearValue&) const = default;
 };
 
 /// Samplers that parts may ask for, by kind; the recorder makes them once.
@@ -193,7 +194,8 @@ class FrameGraph {
     [[nodiscard]] const BufferDesc& desc(BufferHandle buffer) const;
 
     /// Between begin and end what a round creates takes the place of what the round before created by the same name and
-    /// description: one set of resources serves all of them. Contents are undefined before the round's first write.
+    /// description, and passes that are those of the round before are its passes again, with other constants: one set of
+    /// resources and passes serves all rounds. Contents are undefined before the round's first write.
     void begin_rounds();
     void next_round();
     void end_rounds();
@@ -202,6 +204,9 @@ class FrameGraph {
     void group(std::string name);
     [[nodiscard]] const std::string& group() const;
 
+    /// Whether passes from here on rest: they are declared, so that frames that run them and frames that do not have one
+    /// plan, and this frame runs none of them.
+    void rest(bool rests);
     void add_pass(std::string name, const std::function<void(PassBuilder&)>& setup,
                   std::function<void(Recorder&)> execute);
     /// Keeps a transient's contents past execute, for download; its producers are not culled.

@@ -21,8 +21,14 @@ struct Planned {
     GraphDeclaration declaration;  ///< as first seen; what resources look into
     GraphPlan plan;
     std::unique_ptr<GraphResources> resources;
-    GraphStatistics statistics;
+    std::shared_ptr<const GraphStatistics> statistics;  ///< of the frame recorded last
     std::uint64_t last_used = 0;
+
+    /// Follows what may differ between frames of one plan.
+    void update() {
+        synchronize(declaration, plan);
+        statistics = std::make_shared<const GraphStatistics>(account(declaration, plan, {}));
+    }
 };
 
 struct Slot {
@@ -30,7 +36,8 @@ struct Slot {
     UploadArena arena;
     PassTimestamps timestamps;
     std::vector<std::shared_ptr<const void>> retired;
-    std::shared_ptr<Planned> recorded;  ///< what was recorded last
+    std::shared_ptr<Planned> recorded;                  ///< what was recorded last
+    std::shared_ptr<const GraphStatistics> statistics;  ///< of that
     GraphStatistics completed;
     struct Waiting {
         std::span<const std::byte> bytes;
@@ -39,9 +46,20 @@ struct Slot {
     std::vector<Waiting> waiting;  ///< for answers that the device writes into the arena
 };
 
-bool same_layouts(const GraphDeclaration& a, const GraphDeclaration& b) {
-    return std::equal(a.textures.begin(), a.textures.end(), b.textures.begin(), b.textures.end(),
-                      [](const DeclaredTexture& x, const DeclaredTexture& y) { return x.initial == y.initial; });
+/// Brings what may differ between frames of one plan from `now` to `held`; whether anything did.
+bool follow(GraphDeclaration& held, const GraphDeclaration& now) {
+    bool differs = false;
+    const auto assign = [&](auto&& to, const auto& from) {
+        differs = differs || to != from;
+        to = from;
+    };
+    for (std::size_t i = 0; i < now.textures.size(); ++i) {
+        assign(held.textures[i].initial, now.textures[i].initial);
+    }
+    for (std::size_t i = 0; i < now.passes.size(); ++i) {
+        assign(held.passes[i].rests, now.passes[i].rests);
+    }
+    return differs;
 }
 
 }  // namespace
@@ -59,11 +77,8 @@ struct Frames::Impl {
         std::shared_ptr<Planned> planned = found != plans.end() ? *found : make(key, declaration, imports);
         planned->last_used = frame;
         planned->resources->rebind(imports);
-        if (!same_layouts(planned->declaration, declaration)) {
-            for (std::size_t i = 0; i < declaration.textures.size(); ++i) {
-                planned->declaration.textures[i].initial = declaration.textures[i].initial;
-            }
-            synchronize(planned->declaration, planned->plan);
+        if (follow(planned->declaration, declaration)) {
+            planned->update();
         }
         return planned;
     }
@@ -75,7 +90,7 @@ struct Frames::Impl {
         planned->resources = std::make_unique<GraphResources>(device, planned->declaration, imports);
         planned->plan = make_plan(planned->declaration, planned->resources->footprints());
         planned->resources->bind_memory(planned->plan);
-        planned->statistics = account(planned->declaration, planned->plan, {});
+        planned->statistics = std::make_shared<const GraphStatistics>(account(planned->declaration, planned->plan, {}));
         plans.push_back(planned);
         return planned;
     }
@@ -114,7 +129,7 @@ void Frames::begin(std::uint32_t slot) {
     Slot& held = *impl_->slots[slot];
     const std::vector<double> ms = held.timestamps.read(false);
     if (held.recorded != nullptr) {
-        held.completed = held.recorded->statistics;
+        held.completed = *held.statistics;
         held.recorded.reset();
     }
     for (std::size_t i = 0; i < ms.size() && i < held.completed.passes.size(); ++i) {
@@ -175,6 +190,7 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     Slot& slot = *impl_->slots[impl_->slot];
     const bool stamps = impl_->device.has(Feature::timestamps);
     PassWriter writer(impl_->device, declaration, *planned.resources, slot.arena);
+    const std::vector<Turn> turns = turns_of(declaration, planned.plan);
 
     // What a frame that fails waits for never comes.
     struct Waiting {
@@ -191,19 +207,20 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
     if (stamps) {
-        slot.timestamps.begin(commands, static_cast<std::uint32_t>(planned.plan.passes.size()));
+        slot.timestamps.begin(commands, most_turns(declaration, planned.plan));
     }
-    for (const PlannedPass& pass : planned.plan.passes) {
+    for (const Turn& turn : turns) {
         if (stamps) {
             slot.timestamps.stamp(commands);
         }
-        writer.write(commands, pass, executes[pass.declared]);
+        writer.write(commands, *turn.pass, executes[turn.call]);
         if (stamps) {
             slot.timestamps.stamp(commands);
         }
     }
     write_answers(declaration, planned, answers, slot, commands);
     slot.recorded = held;
+    slot.statistics = planned.statistics;
     waiting.whole = true;
     return planned.plan.final_layouts;
 }

@@ -84,29 +84,31 @@ void main() {
     return once;
 }
 
+/// target = source + constant
+void declare_step(FrameGraph& graph, const char* name, TextureHandle source, TextureHandle target, float constant) {
+    graph.add_pass(
+        name,
+        [&](PassBuilder& pass) {
+            pass.sample(source);
+            pass.storage_write(target);
+        },
+        [=, desc = graph.desc(target)](Recorder& r) {
+            r.bind(add_constant());
+            r.set("source", source);
+            r.set_storage("target", target);
+            r.set_value("u", constant);
+            r.dispatch_pixels(desc.width, desc.height);
+        });
+}
+
 /// out = in + value, through a transient image between.
 void declare_chain(FrameGraph& graph, Texture2D& from, Texture2D& to, float value) {
     const TextureHandle in = graph.import(from), out = graph.import(to);
     const TextureDesc desc = from.desc();
     const TextureHandle middle =
         graph.create({.name = "middle", .format = desc.format, .width = desc.width, .height = desc.height});
-    const auto step = [&](const char* name, TextureHandle source, TextureHandle target, float constant) {
-        graph.add_pass(
-            name,
-            [&](PassBuilder& pass) {
-                pass.sample(source);
-                pass.storage_write(target);
-            },
-            [=](Recorder& r) {
-                r.bind(add_constant());
-                r.set("source", source);
-                r.set_storage("target", target);
-                r.set_value("u", constant);
-                r.dispatch_pixels(desc.width, desc.height);
-            });
-    };
-    step("first", in, middle, value);
-    step("second", middle, out, value);
+    declare_step(graph, "first", in, middle, value);
+    declare_step(graph, "second", middle, out, value);
 }
 
 Texture2D picture(Device& device, std::uint32_t side, float value) {
@@ -148,6 +150,42 @@ TEST_F(InFlight, FramesFollowEachOtherAndSteadyOnesCreateNothing) {
     EXPECT_EQ(device.counters(), steady);
     EXPECT_EQ(frames.plans(), 1U);
     EXPECT_EQ(first_texel(kept[0]), expected);
+}
+
+// What a frame makes, the frames after it find; those that make nothing have the plan of those that do.
+TEST_F(InFlight, PassesThatRestCostNoPlanAndAreNotRun) {
+    Texture2D nothing = picture(device, 16, 0.0F), kept = picture(device, 16, -1.0F), sum = picture(device, 16, 0.0F);
+    Frames frames(device, 2);
+    Host host(device, frames);
+    Counters steady;
+    for (int i = 0; i < 8; ++i) {
+        steady = i == 2 ? device.counters() : steady;
+        host.frame([&](VkCommandBuffer commands) {
+            FrameGraph graph(device);
+            const TextureHandle there = graph.import(kept);
+            graph.rest(i % 5 != 0);
+            const TextureHandle middle =
+                graph.create({.name = "middle", .format = VK_FORMAT_R32_SFLOAT, .width = 16, .height = 16});
+            declare_step(graph, "make", graph.import(nothing), middle, static_cast<float>(i));
+            declare_step(graph, "keep", middle, there, 100.0F);
+            graph.answer(graph.create(BufferDesc{.name = "count", .bytes = 16}),
+                         [](auto) { FAIL() << "never written"; });
+            graph.rest(false);
+            declare_step(graph, "use", there, graph.import(sum), static_cast<float>(i));
+            graph.record(frames, commands);
+        });
+    }
+    host.wait();
+    EXPECT_EQ(device.counters(), steady) << "a slot whose first frame rests has room for those that do not";
+    EXPECT_EQ(frames.plans(), 1U);
+    EXPECT_EQ(first_texel(kept), 105.0F);
+    EXPECT_EQ(first_texel(sum), 112.0F);
+
+    // Each slot's account is of its own frame.
+    frames.begin(0);
+    EXPECT_EQ(frames.completed(0).passes.size(), 1U);
+    frames.begin(1);
+    EXPECT_EQ(frames.completed(1).passes.size(), 1U);
 }
 
 TEST_F(InFlight, APictureOfAnotherSizeHasAPlanOfItsOwnAndTheOldOneRetires) {

@@ -5,8 +5,9 @@ namespace gn {
 
 GraphStatistics account(const GraphDeclaration& declaration, const GraphPlan& plan, std::span<const double> ms) {
     GraphStatistics statistics;
-    for (std::size_t i = 0; i < plan.passes.size(); ++i) {
-        const DeclaredPass& pass = declaration.passes[plan.passes[i].declared];
+    for (const Turn& turn : turns_of(declaration, plan)) {
+        const DeclaredPass& pass = declaration.passes[turn.pass->declared];
+        const std::size_t i = statistics.passes.size();
         statistics.passes.push_back({pass.name, pass.group, i < ms.size() ? ms[i] : 0.0});
     }
     for (std::size_t i = 0; i < declaration.textures.size(); ++i) {

@@ -78,25 +78,25 @@ class Synchronizer {
             }
         }
         buffers_.resize(declaration.buffers.size());
+        texture_begun_.resize(declaration.textures.size());
+        buffer_begun_.resize(declaration.buffers.size());
     }
 
     void run() {
-        for (std::uint32_t index = 0; index < plan_.passes.size(); ++index) {
-            plan_.passes[index].images.clear();
-            plan_.passes[index].buffers.clear();
-            const DeclaredPass& pass = declaration_.passes[plan_.passes[index].declared];
-            inherit_memory(index, pass);
-            for (std::uint32_t texture = 0; texture < textures_.size(); ++texture) {
-                if (uses(pass, true, texture)) {
-                    visit_texture(plan_.passes[index], pass, texture);
-                }
+        std::uint32_t index = 0;
+        const auto run_to = [&](std::uint32_t end) {
+            for (; index < end; ++index) {
+                visit(plan_.passes[index]);
             }
-            for (std::uint32_t buffer = 0; buffer < buffers_.size(); ++buffer) {
-                if (uses(pass, false, buffer)) {
-                    visit_buffer(plan_.passes[index], pass, buffer);
-                }
-            }
+        };
+        for (PlannedLoop& loop : plan_.loops) {
+            run_to(loop.first + loop.count);
+            // Once more: what a round leaves behind, and what the next one waits for, is the same from here on.
+            const auto body = plan_.passes.begin() + loop.first;
+            loop.again.assign(body, body + loop.count);
+            std::for_each(loop.again.begin(), loop.again.end(), [&](PlannedPass& pass) { visit(pass); });
         }
+        run_to(static_cast<std::uint32_t>(plan_.passes.size()));
         plan_.final_layouts.clear();
         for (const auto& states : textures_) {
             auto& layouts = plan_.final_layouts.emplace_back();
@@ -107,30 +107,52 @@ class Synchronizer {
     }
 
   private:
+    void visit(PlannedPass& planned) {
+        planned.images.clear();
+        planned.buffers.clear();
+        const DeclaredPass& pass = declaration_.passes[planned.declared];
+        if (pass.rests) {
+            return;
+        }
+        inherit_memory(pass);
+        for (std::uint32_t texture = 0; texture < textures_.size(); ++texture) {
+            if (uses(pass, true, texture)) {
+                visit_texture(planned, pass, texture);
+            }
+        }
+        for (std::uint32_t buffer = 0; buffer < buffers_.size(); ++buffer) {
+            if (uses(pass, false, buffer)) {
+                visit_buffer(planned, pass, buffer);
+            }
+        }
+    }
+
     static bool uses(const DeclaredPass& pass, bool texture, std::uint32_t resource) {
         return std::any_of(pass.uses.begin(), pass.uses.end(),
                            [&](const Use& use) { return use.texture == texture && use.resource == resource; });
     }
 
     /// A transient that begins to live waits for whoever used its memory before.
-    void inherit_memory(std::uint32_t index, const DeclaredPass& pass) {
+    void inherit_memory(const DeclaredPass& pass) {
         for (const Use& use : pass.uses) {
             const Placement& mine = use.texture ? plan_.textures[use.resource] : plan_.buffers[use.resource];
-            if (!mine.transient || mine.first != index) {
+            auto&& begun = use.texture ? texture_begun_[use.resource] : buffer_begun_[use.resource];
+            if (!mine.transient || begun) {
                 continue;
             }
+            begun = true;
             State inherited;
             const auto take = [&](const State& ended) {
                 inherited.write_stages |= ended.write_stages | ended.read_stages;
                 inherited.write_access |= ended.write_access;
             };
             for (std::size_t i = 0; i < textures_.size(); ++i) {
-                if (shares(mine, plan_.textures[i], index)) {
+                if (shares(mine, plan_.textures[i])) {
                     std::for_each(textures_[i].begin(), textures_[i].end(), take);
                 }
             }
             for (std::size_t i = 0; i < buffers_.size(); ++i) {
-                if (shares(mine, plan_.buffers[i], index)) {
+                if (shares(mine, plan_.buffers[i])) {
                     take(buffers_[i]);
                 }
             }
@@ -142,8 +164,8 @@ class Synchronizer {
         }
     }
 
-    static bool shares(const Placement& mine, const Placement& other, std::uint32_t index) {
-        return other.used && other.transient && other.last < index && other.heap == mine.heap &&
+    static bool shares(const Placement& mine, const Placement& other) {
+        return other.used && other.transient && other.last < mine.first && other.heap == mine.heap &&
                other.offset < mine.offset + mine.bytes && mine.offset < other.offset + other.bytes;
     }
 
@@ -208,6 +230,7 @@ class Synchronizer {
     GraphPlan& plan_;
     std::vector<std::vector<State>> textures_;
     std::vector<State> buffers_;
+    std::vector<bool> texture_begun_, buffer_begun_;
 };
 
 /// Whether a port needs contents that somebody must have written.
@@ -265,6 +288,7 @@ GraphPlan make_plan(const GraphDeclaration& declaration, const Footprints& footp
     for (const std::uint32_t pass : living_passes(declaration)) {
         plan.passes.push_back({.declared = pass});
     }
+    find_loops(declaration, plan);
     check_contents(declaration, plan);
     place(declaration, footprints, plan);
     synchronize(declaration, plan);

@@ -60,8 +60,8 @@ void describe_pass(std::string& text, const GraphDeclaration& declaration, const
 
 std::string describe(const GraphDeclaration& declaration, const GraphPlan& plan) {
     std::string text;
-    for (const PlannedPass& planned : plan.passes) {
-        describe_pass(text, declaration, planned);
+    for (const Turn& turn : turns_of(declaration, plan)) {
+        describe_pass(text, declaration, *turn.pass);
     }
     const auto memory = [&](const auto& declared, const std::vector<Placement>& placements) {
         for (std::size_t i = 0; i < placements.size(); ++i) {

@@ -88,6 +88,43 @@ TEST_F(Graph, CommandsOfAPassSeeEachOther) {
     EXPECT_EQ(read(b), std::vector<std::uint32_t>(64, 1012));
 }
 
+TEST_F(Graph, RoundsRunInOrderEachWithItsOwnConstants) {
+    for (const bool timed : {true, false}) {
+        FrameGraph rounds(device);
+        const BufferHandle sums = rounds.create(BufferDesc{.name = "sums", .bytes = 256});
+        rounds.keep(sums);
+        const auto step = [&](BufferHandle buffer, ScaleAndAdd by) {
+            rounds.add_pass(
+                "step", [&](PassBuilder& pass) { pass.storage_write(buffer); },
+                [=](Recorder& r) {
+                    r.bind(scale_and_add());
+                    r.set("values", buffer);
+                    r.set_value("params", by);
+                    r.dispatch(1, 1);
+                });
+        };
+        rounds.add_pass(
+            "fill", [&](PassBuilder& pass) { pass.copy_to(sums); }, [=](Recorder& r) { r.fill(sums, 1); });
+        rounds.begin_rounds();
+        for (std::uint32_t i = 0; i < 5; ++i) {
+            rounds.next_round();
+            step(sums, {3, i, 64});
+            // What nobody reads is left out, and the round's other passes still have functions of their own.
+            step(rounds.create(BufferDesc{.name = "unread", .bytes = 256}), {0, 0, 64});
+            step(sums, {1, 100 * i, 64});
+        }
+        rounds.end_rounds();
+        step(sums, {2, 0, 64});
+        rounds.execute(timed);
+        std::uint32_t expected = 1;
+        for (std::uint32_t i = 0; i < 5; ++i) {
+            expected = expected * 3 + i + 100 * i;
+        }
+        EXPECT_EQ(values_of<std::uint32_t>(rounds.download(sums)), std::vector<std::uint32_t>(64, 2 * expected));
+        EXPECT_EQ(rounds.statistics().passes.size(), 12U);
+    }
+}
+
 TEST_F(Graph, PassesSeeEachOtherInOneSubmitAsInMany) {
     for (const bool timed : {true, false}) {
         FrameGraph one(device);

@@ -47,16 +47,18 @@ std::vector<double> GraphExecutor::run(const GraphDeclaration& declaration, cons
     if (plan.passes.empty()) {
         return {};
     }
+    const std::vector<Turn> turns = turns_of(declaration, plan);
     const bool timestamps = timed && device_.has(Feature::timestamps);
-    return timed && !timestamps ? run_apart(plan, executes, writer) : run_together(plan, executes, writer, timestamps);
+    return timed && !timestamps ? run_apart(turns, executes, writer)
+                                : run_together(turns, executes, writer, timestamps);
 }
 
-std::vector<double> GraphExecutor::run_apart(const GraphPlan& plan, const std::vector<Execute>& executes,
+std::vector<double> GraphExecutor::run_apart(std::span<const Turn> turns, const std::vector<Execute>& executes,
                                              PassWriter& writer) {
     std::vector<double> ms;
-    for (const PlannedPass& planned : plan.passes) {
+    for (const Turn& turn : turns) {
         begin();
-        writer.write(commands_, planned, executes[planned.declared]);
+        writer.write(commands_, *turn.pass, executes[turn.call]);
         const auto start = Clock::now();
         end_and_wait();
         ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
@@ -64,23 +66,23 @@ std::vector<double> GraphExecutor::run_apart(const GraphPlan& plan, const std::v
     return ms;
 }
 
-std::vector<double> GraphExecutor::run_together(const GraphPlan& plan, const std::vector<Execute>& executes,
+std::vector<double> GraphExecutor::run_together(std::span<const Turn> turns, const std::vector<Execute>& executes,
                                                 PassWriter& writer, bool timestamps) {
     begin();
     if (timestamps) {
-        timestamps_.begin(commands_, static_cast<std::uint32_t>(plan.passes.size()));
+        timestamps_.begin(commands_, static_cast<std::uint32_t>(turns.size()));
     }
-    for (const PlannedPass& planned : plan.passes) {
+    for (const Turn& turn : turns) {
         if (timestamps) {
             timestamps_.stamp(commands_);
         }
-        writer.write(commands_, planned, executes[planned.declared]);
+        writer.write(commands_, *turn.pass, executes[turn.call]);
         if (timestamps) {
             timestamps_.stamp(commands_);
         }
     }
     end_and_wait();
-    return timestamps ? timestamps_.read(true) : std::vector<double>(plan.passes.size(), 0.0);
+    return timestamps ? timestamps_.read(true) : std::vector<double>(turns.size(), 0.0);
 }
 
 void GraphExecutor::begin() {

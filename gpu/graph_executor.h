@@ -22,9 +22,10 @@ class GraphExecutor {
     void destroy();
     void begin();
     void end_and_wait();
-    std::vector<double> run_apart(const GraphPlan& plan, const std::vector<Execute>& executes, PassWriter& writer);
-    std::vector<double> run_together(const GraphPlan& plan, const std::vector<Execute>& executes, PassWriter& writer,
-                                     bool timestamps);
+    std::vector<double> run_apart(std::span<const Turn> turns, const std::vector<Execute>& executes,
+                                  PassWriter& writer);
+    std::vector<double> run_together(std::span<const Turn> turns, const std::vector<Execute>& executes,
+                                     PassWriter& writer, bool timestamps);
 
     Device& device_;
     UploadArena arena_;

@@ -34,6 +34,9 @@ Fingerprint fingerprint(const GraphDeclaration& declaration) {
             hash(hasher, use);
         }
     }
+    for (const DeclaredLoop& loop : declaration.loops) {
+        hasher.value(loop.first).value(loop.count).value(loop.rounds);
+    }
     return hasher.finish();
 }
 

@@ -45,6 +45,15 @@ void find_lifetimes(const GraphDeclaration& declaration, GraphPlan& plan) {
             placement.used = true;
         }
     }
+    // What a loop touches lives from its beginning: a round may find what the one before left, and no two share memory.
+    for (const PlannedLoop& loop : plan.loops) {
+        for (std::uint32_t pass = loop.first; pass < loop.first + loop.count; ++pass) {
+            for (const Use& use : declaration.passes[plan.passes[pass].declared].uses) {
+                Placement& placement = use.texture ? plan.textures[use.resource] : plan.buffers[use.resource];
+                placement.first = std::min(placement.first, loop.first);
+            }
+        }
+    }
     const auto finish = [&](const auto& declared, std::vector<Placement>& placements) {
         for (std::size_t i = 0; i < declared.size(); ++i) {
             placements[i].transient = !declared[i].imported;

@@ -40,13 +40,16 @@ struct Use {
     Load load = Load::keep;                        ///< attachments
     ClearValue clear{};                            ///< attachments
     std::optional<std::uint32_t> clear_stencil{};  ///< depth_read_only
+    bool operator==(const Use&) const = default;
 };
 
 struct DeclaredPass {
     std::string name, group;
     std::vector<Use> uses;
     bool keep = false;
+    bool rests = false;                ///< part of the plan, but not run in this frame
     [[nodiscard]] bool draws() const;  ///< has attachments
+    bool operator==(const DeclaredPass&) const = default;
 };
 
 struct DeclaredTexture {
@@ -62,11 +65,24 @@ struct DeclaredBuffer {
     bool imported = false, kept = false;
 };
 
+/// Consecutive passes that run round after round, each time with constants of its own.
+struct DeclaredLoop {
+    std::uint32_t first = 0, count = 0;  ///< declared passes
+    std::uint32_t rounds = 2;            ///< at least 2
+};
+
 struct GraphDeclaration {
     std::vector<DeclaredTexture> textures;
     std::vector<DeclaredBuffer> buffers;
     std::vector<DeclaredPass> passes;
+    std::vector<DeclaredLoop> loops;  ///< in order, apart from each other
 };
+
+/// Where a declared pass's functions stand among those of all: of round i at first + i * step.
+struct Calls {
+    std::uint32_t first = 0, step = 0, rounds = 1;
+};
+Calls calls_of(const GraphDeclaration& declaration, std::uint32_t pass);
 
 /// What a transient takes in memory.
 struct Footprint {
@@ -128,18 +144,37 @@ struct Heap {
     VkDeviceSize bytes = 0;
 };
 
+/// Planned passes that run round after round.
+struct PlannedLoop {
+    std::uint32_t first = 0, count = 0;
+    std::vector<PlannedPass> again;  ///< the same with the barriers of every round but the first
+};
+
 struct GraphPlan {
     std::vector<PlannedPass> passes;
+    std::vector<PlannedLoop> loops;
     std::vector<Placement> textures, buffers;
     std::vector<Heap> heaps;
     std::vector<std::vector<VkImageLayout>> final_layouts;  ///< per texture and subresource
     [[nodiscard]] VkDeviceSize transient_bytes() const;
 };
 
+/// One run of a planned pass.
+struct Turn {
+    const PlannedPass* pass = nullptr;
+    std::uint32_t call = 0;  ///< calls_of
+};
+/// All that a plan runs in this frame, in order; it points into the plan.
+std::vector<Turn> turns_of(const GraphDeclaration& declaration, const GraphPlan& plan);
+/// How many there are where nothing rests.
+std::uint32_t most_turns(const GraphDeclaration& declaration, const GraphPlan& plan);
+
 /// Declared passes, in order, whose results reach an imported or kept resource or a pass that must stay.
 std::vector<std::uint32_t> living_passes(const GraphDeclaration& declaration);
 /// What a raster pipeline must know of the pass.
 AttachmentFormats attachment_formats(const GraphDeclaration& declaration, const DeclaredPass& pass);
+/// Fills the loops from the passes.
+void find_loops(const GraphDeclaration& declaration, GraphPlan& plan);
 /// Fills placements and heaps; resources whose lives overlap never overlap in memory.
 void place(const GraphDeclaration& declaration, const Footprints& footprints, GraphPlan& plan);
 /// Fills every pass's barriers and the final layouts; needs placements.
@@ -147,8 +182,8 @@ void synchronize(const GraphDeclaration& declaration, GraphPlan& plan);
 
 /// All of the above. Throws Error for a pass that reads what nobody wrote.
 GraphPlan make_plan(const GraphDeclaration& declaration, const Footprints& footprints);
-/// What a plan depends on: equal declarations, equal fingerprints. Names, and the layouts that imports come in, are left
-/// out; the latter change barriers alone (synchronize).
+/// What a plan depends on: equal declarations, equal fingerprints. Names, which passes rest, and the layouts that
+/// imports come in, are left out; the latter two change barriers alone (synchronize).
 Fingerprint fingerprint(const GraphDeclaration& declaration);
 /// Passes, ports, barriers and placements as text.
 std::string describe(const GraphDeclaration& declaration, const GraphPlan& plan);

@@ -299,11 +299,61 @@ TEST_F(Plan, RoundsShareOneSetOfResources) {
     graph.end_rounds();
     EXPECT_NE(texture("map").index, first[0]) << "after the rounds a resource is a new one";
 
-    // What a round draws waits for what the round before still read.
+    // One set of passes too. What a round draws waits for what the round before still read.
     const GraphPlan& plan = graph.plan();
-    ASSERT_EQ(plan.passes.size(), 9U);
-    const auto& waits = plan.passes[3].images;
-    EXPECT_EQ(std::count_if(waits.begin(), waits.end(), [&](const auto& w) { return w.texture == first[0]; }), 1);
+    ASSERT_EQ(plan.passes.size(), 3U);
+    ASSERT_EQ(plan.loops.size(), 1U);
+    ASSERT_EQ(plan.loops[0].again.size(), 3U);
+    const auto waits = [&](const PlannedPass& pass) {
+        return std::count_if(pass.images.begin(), pass.images.end(),
+                             [&](const ImageBarrier& w) { return w.texture == first[0] && w.src_stages != 0; });
+    };
+    EXPECT_EQ(waits(plan.passes[0]), 0);
+    EXPECT_EQ(waits(plan.loops[0].again[0]), 1);
+    EXPECT_EQ(graph.statistics().passes.size(), 9U) << "each round is a run of its own";
+}
+
+TEST_F(Plan, ARoundKeepsWhatTheNextOneReads) {
+    const auto sums = buffer("sums"), carried = buffer("carried"), unread = buffer("unread");
+    graph.keep(sums);
+    pass("first", [&](PassBuilder& p) { p.copy_to(carried); });
+    graph.begin_rounds();
+    for (int round = 0; round < 3; ++round) {
+        graph.next_round();
+        pass("add", [&](PassBuilder& p) {
+            p.storage_read(carried);
+            p.storage_write(sums);
+        });
+        pass("carry", [&](PassBuilder& p) { p.storage_write(carried); });
+        pass("in vain", [&](PassBuilder& p) { p.storage_write(unread); });
+    }
+    graph.end_rounds();
+    const GraphPlan& plan = graph.plan();
+    ASSERT_EQ(plan.passes.size(), 3U) << "one that fills, two of the loop";
+    EXPECT_EQ(plan.loops.at(0).again.size(), 2U);
+    EXPECT_EQ(graph.statistics().passes.size(), 7U);
+}
+
+TEST_F(Plan, RoundsOfAnotherShapeAreDeclaredAnew) {
+    const auto sums = buffer("sums");
+    graph.keep(sums);
+    graph.begin_rounds();
+    for (int round = 0; round < 5; ++round) {
+        graph.next_round();
+        pass("add", [&](PassBuilder& p) { p.storage_write(sums); });
+        if (round == 2) {
+            pass("more", [&](PassBuilder& p) { p.storage_write(sums); });
+        }
+    }
+    graph.end_rounds();
+    const GraphPlan& plan = graph.plan();
+    ASSERT_EQ(plan.passes.size(), 4U) << "twice, once with more, twice";
+    EXPECT_EQ(plan.loops.size(), 2U);
+    std::vector<std::string> names;
+    for (const PassTime& pass : graph.statistics().passes) {
+        names.push_back(pass.name);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"add", "add", "add", "more", "add", "add"}));
 }
 
 TEST_F(Plan, AliasedMemoryWaitsForItsFormerUser) {

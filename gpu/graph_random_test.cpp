@@ -61,6 +61,11 @@ GraphDeclaration random_graph(std::mt19937& random) {
         }
         graph.passes.push_back(std::move(pass));
     }
+    // Let some of it run round after round.
+    if (pick(2) == 0) {
+        const std::uint32_t first = pick(passes);
+        graph.loops.push_back({first, 1 + pick(passes - first), 2 + pick(3)});
+    }
     return graph;
 }
 
@@ -82,7 +87,8 @@ class Model {
     Model(const GraphDeclaration& graph, const GraphPlan& plan) : graph_(graph), plan_(plan) {}
 
     void run() {
-        for (const PlannedPass& planned : plan_.passes) {
+        for (const Turn& turn : turns_of(graph_, plan_)) {
+            const PlannedPass& planned = *turn.pass;
             for (const ImageBarrier& b : planned.images) {
                 each(b.range, [&](std::uint32_t mip, std::uint32_t layer) {
                     barrier(texture_key(b.texture, mip, layer), plan_.textures[b.texture], b.src_stages, b.src_access,

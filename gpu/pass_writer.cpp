@@ -95,8 +95,8 @@ PassTimestamps::~PassTimestamps() {
     vkDestroyQueryPool(device_.vk(), pool_, nullptr);
 }
 
-void PassTimestamps::begin(VkCommandBuffer commands, std::uint32_t passes) {
-    const std::uint32_t count = 2 * passes;
+void PassTimestamps::begin(VkCommandBuffer commands, std::uint32_t most) {
+    const std::uint32_t count = 2 * most;
     if (capacity_ < count) {
         vkDestroyQueryPool(device_.vk(), pool_, nullptr);
         pool_ = VK_NULL_HANDLE;

@@ -36,8 +36,8 @@ class PassTimestamps {
     PassTimestamps(const PassTimestamps&) = delete;
     PassTimestamps& operator=(const PassTimestamps&) = delete;
 
-    /// Makes room for `passes` and resets them.
-    void begin(VkCommandBuffer commands, std::uint32_t passes);
+    /// Makes room for as many passes as there ever are and resets them.
+    void begin(VkCommandBuffer commands, std::uint32_t most);
     void stamp(VkCommandBuffer commands);
     /// Of the passes that were stamped last; zeros where `wait` is false and the device has not finished.
     [[nodiscard]] std::vector<double> read(bool wait) const;

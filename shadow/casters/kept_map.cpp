@@ -13,12 +13,7 @@ namespace {
 /// What a frame left: of what the map is made, and where its offers live.
 struct KeptMap {
     Fingerprint of;
-    struct Kept {
-        std::string name;
-        SamplerDesc sampler;
-        TextureDesc texture;
-    };
-    std::vector<Kept> offers;
+    std::vector<TextureDesc> textures;
 };
 
 bool can_be_kept(const FrameInput& input, const LightViews& views) {
@@ -62,21 +57,13 @@ Fingerprint made_of(const FrameInput& input, const Recipe& recipe, const LightVi
     return hasher.finish();
 }
 
-/// The offers that a frame before left, unless one of them is gone.
-std::vector<Offer> found(const FrameInput& input, const KeptMap& kept) {
-    std::vector<Texture2D*> textures;
-    bool fresh = false;
-    for (const KeptMap::Kept& offer : kept.offers) {
-        textures.push_back(&input.history->texture(offer.texture, fresh));
-        if (fresh) {
-            return {};
-        }
+/// Whether a frame before left just this, and all of it is still there.
+bool is_kept(const FrameInput& input, const KeptMap* kept, const Fingerprint& of) {
+    bool fresh = kept == nullptr || kept->of != of || kept->textures.empty();
+    for (std::size_t i = 0; !fresh && i < kept->textures.size(); ++i) {
+        static_cast<void>(input.history->texture(kept->textures[i], fresh));
     }
-    std::vector<Offer> offers;
-    for (std::size_t i = 0; i < textures.size(); ++i) {
-        offers.push_back({kept.offers[i].name, input.graph.import(*textures[i]), kept.offers[i].sampler});
-    }
-    return offers;
+    return !fresh;
 }
 
 /// Lets a map's textures live in the history.
@@ -91,9 +78,19 @@ KeptMap leave(const FrameInput& input, const std::string& name, const Fingerprin
                 return input.history->texture(desc, fresh);
             });
         }
-        kept.offers.push_back({offer.name, offer.sampler, input.graph.desc(offer.texture)});
+        kept.textures.push_back(input.graph.desc(offer.texture));
     }
     return kept;
+}
+
+/// The map's passes are declared in every frame, so that frames that draw it and frames that find it have one plan.
+ShadowMap drawn_unless(bool kept, FrameGraph& graph, const std::function<ShadowMap()>& draw) {
+    struct Rest {
+        FrameGraph& graph;
+        ~Rest() { graph.rest(false); }
+    } const rest{graph};
+    graph.rest(kept);
+    return draw();
 }
 
 }  // namespace
@@ -118,12 +115,7 @@ ShadowMap add_kept_map(const FrameInput& input, const Recipe& recipe, const Ligh
     const std::string name = fmt::format("map of light {} {} {}{}", input.light_id, recipe.name, recipe.map->id,
                                          input.translucent ? " translucent" : "");
     const Fingerprint of = made_of(input, recipe, views);
-    if (const auto* before = input.history->before<KeptMap>(name); before != nullptr && before->of == of) {
-        if (std::vector<Offer> offers = found(input, *before); !offers.empty()) {
-            return {std::move(offers), recipe.map};
-        }
-    }
-    ShadowMap map = draw();
+    ShadowMap map = drawn_unless(is_kept(input, input.history->before<KeptMap>(name), of), input.graph, draw);
     const bool alone = std::none_of(map.offers.begin(), map.offers.end(),
                                     [&](const Offer& offer) { return input.graph.imported(offer.texture); });
     // What lives elsewhere already follows earlier frames by itself.

@@ -129,7 +129,10 @@ TEST(KeptMap, OfAMapThatFollowsEarlierFramesIsDrawnInEveryFrame) {
     const std::string recipe = "lvsm,lvsm.splits=lloyd,resolution=128";
     const int passes = sequence.draw(recipe, &sequence.history).map_passes;
     EXPECT_GT(passes, 0);
-    EXPECT_EQ(sequence.draw(recipe, &sequence.history).map_passes, passes);
+    // A map that is found is found by the third frame: the second asks for its textures first.
+    for (int frame = 1; frame < 3; ++frame) {
+        EXPECT_EQ(sequence.draw(recipe, &sequence.history).map_passes, passes) << frame;
+    }
 }
 
 }  // namespace

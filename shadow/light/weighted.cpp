@@ -122,6 +122,20 @@ bool looks_at_few(const Recipe& recipe) {
            recipe.casters != Casters::ids;
 }
 
+/// Rounds of a graph that end also where one of them refuses.
+class Rounds {
+  public:
+    explicit Rounds(FrameGraph& graph) : graph_(graph) { graph.begin_rounds(); }
+    ~Rounds() { graph_.end_rounds(); }
+    Rounds(const Rounds&) = delete;
+    Rounds& operator=(const Rounds&) = delete;
+    void next() const { graph_.next_round(); }
+    void end() const { graph_.end_rounds(); }
+
+  private:
+    FrameGraph& graph_;
+};
+
 /// One of the lights that serve another.
 struct Turn {
     int index = 0, count = 1;
@@ -176,9 +190,9 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
     // Serve light after light, each with what the one before has done with.
     TextureHandle sums;
     uint channels = 1;
-    graph.begin_rounds();
+    const Rounds rounds(graph);
     for (std::size_t i = 0; i < lights->size(); ++i) {
-        graph.next_round();
+        rounds.next();
         const Turn turn = turn_of(static_cast<int>(i));
         FrameInput one = input;
         one.source = &lights->at(i);
@@ -198,7 +212,7 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
         }
         add_one(one, recipe, turn, served.image, sums);
     }
-    graph.end_rounds();
+    rounds.end();
 
     // Passes point to the lights: they live as long as the graph.
     graph.hold(lights);
