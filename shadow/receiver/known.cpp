@@ -35,12 +35,22 @@ std::string shared_by_views(const LightViews& views) {
             text += fmt::format("    view.cs_from_ws[{};\n", column);
         }
     }
-    // More than a few are packed as the camera sees them: what they agree in would be another thing in every frame.
-    if (views.buffer.valid() || views.views.size() > most_taken) {
+    if (views.buffer.valid()) {
         return text;
     }
     const auto all = [&](auto is) { return std::all_of(views.views.begin(), views.views.end(), is); };
     const GnLightView& first = views.views.front();
+    // What follows the light is not told, for the shader would be another in every frame: it is read of one view for all.
+    if (views.views.size() > 1 && all([&](const GnLightView& view) { return view.eye_ws == first.eye_ws; })) {
+        text += "    view.eye_ws = views[0].eye_ws;\n";
+    }
+    if (views.views.size() > 1 && all([&](const GnLightView& view) { return view.resolution == first.resolution; })) {
+        text += "    view.resolution = views[0].resolution;\n";
+    }
+    // More than a few are packed as the camera sees them: what they agree in would be another thing in every frame.
+    if (views.views.size() > most_taken) {
+        return text;
+    }
     if (all([&](const GnLightView& view) { return view.grid == first.grid; })) {
         text += fmt::format("    view.grid = {:#};\n", first.grid);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sum of the shadows of a light's points is what rays to the same points say.
 #include "scenes/analytic.h"
+#include "shadow/geometry/potential_receivers.h"
 #include "shadow/scene/light_samples.h"
 #include "shadow/show/show.h"
 #include "tests/direct_scenes.h"
@@ -97,6 +98,24 @@ TEST(Accumulate, VolumesOfThePointsAreTheTracedPointsOutsideEdgePixels) {
             EXPECT_GT(partial, 40U);
         }
     }
+}
+
+// A point of a spot lights all around; its map holds what the spot's cone reaches and no more.
+TEST(Accumulate, ReceiversOfAPointAreThoseOfTheWholeLight) {
+    GnLight spot = by_hand::spot({0, 4, 0}, {0, 0, 0}, 0.3F);
+    spot.radius = 0.5F;
+    const Scene scene = scene_under(spot);
+    const Recipe recipe = load_recipe("hard,light=accumulate,accumulate.lights=4");
+    const std::vector<Light> points = recipe.light->split(scene.lights.front(), recipe);
+    FrameGraph graph(test::device());
+    const SceneHandles handles;
+    const ViewSamples samples{.width = side, .height = side, .camera = scene.camera("")};
+    FrameInput input{test::device(), graph, scene, handles, samples, &scene.lights.front()};
+    const std::vector<dvec3> whole = potential_receivers(input).vertices();
+    input.source = &points.front();
+    EXPECT_NE(potential_receivers(input).vertices(), whole) << "a point without a cone reaches more";
+    input.parent = &scene.lights.front();
+    EXPECT_EQ(potential_receivers(input).vertices(), whole);
 }
 
 /// Which V of one point a receiver on the ground may be given by a map that holds the box to half a texel.
