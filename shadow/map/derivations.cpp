@@ -2,6 +2,7 @@
 // The names by which lookups ask for what is made of a map.
 #include "shadow/casters/peel.h"
 #include "shadow/map/derived.h"
+#include "shadow/map/steps.h"
 #include "shadow/map/sums.h"
 #include "shadow/receiver/map_range.glsl"
 #include "shadow/recipe/part.h"
@@ -21,7 +22,7 @@ TextureHandle add_all_mips(const DerivedFrom& from) {
     return add_mipmapped(from.input.graph, from.source);
 }
 
-constexpr std::array<Derivation, 10> all_derivations{{
+constexpr std::array<Derivation, 11> all_derivations{{
     {"min-max", "depth", "A pyramid of least and greatest depths.", 0, false,
      [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source); }},
     {"block-min-max", "depth", "The same from blocks of 8 x 8 texels on.", 0, false,
@@ -40,6 +41,8 @@ constexpr std::array<Derivation, 10> all_derivations{{
      add_sums},
     {"mip-depths", "depth", "Depths with all mips.", 0, true, add_all_mips},
     {"mip-moments", "moments", "Moments with all mips.", 0, true, add_all_mips},
+    {"steps-", "depth", "Where the nearest texel lies that stands behind a step of depth, up to so many texels away.", 128,
+     false, [](const DerivedFrom& from) { return add_steps(from.input.graph, from.source, from.count); }},
     {"peeled-", "depth", "The nearest surfaces under each texel, nearest first.", most_peeled, false,
      [](const DerivedFrom& from) { return add_peeled(from.input, from.recipe, from.views, from.count); }},
 }};
