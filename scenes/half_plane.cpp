@@ -22,6 +22,8 @@ Scene make(const ParamBlock& block) {
 
     scene.lights.push_back(overhead_light(block.as<GnOverheadLightParams>(), light_height));
     scene.cameras.push_back(look_at("main", {0.3F, 1.9F, 0.5F}, {0, 0, -0.2F}, 62, 0.1F, 40));
+    // Of the penumbra's lit half alone: the edge of the hard shadow lies to the left of it.
+    scene.cameras.push_back(look_at("beside", {0.85F, 1.2F, 0.3F}, {0.85F, 0, -0.2F}, 30, 0.1F, 40));
 
     // From x the edge at 0 projects onto the light at -x d_o / (d_r - d_o), with d_r = 4 m from light to receiver and
     // d_o = 2 m to the occluder; what lies left of it is hidden: V = clamp(1/2 + x d_o / (w (d_r - d_o)), 0, 1), a ramp

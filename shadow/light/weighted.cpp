@@ -29,14 +29,38 @@ constexpr const char* add_text = R"(
     float weight = counted ? GN_WEIGHT(u.light, u.one, position.xyz, pixel, u.index, u.count) : 0.0;
     bool above = dot(n_ws, gn_to_light(u.one, position.xyz)) > 0.0;
     GN_V v = above ? GN_V_OF(texelFetch(visibility, u.few != 0 ? place : pixel, 0)) : GN_V(0.0);
+#ifdef GN_LIGHT_FUSION
+    if (GN_LIGHT_FUSION(u.params) != GN_FUSION_SUM) {
+        GnFused fused = u.begins != 0 ? gn_unfused() : fused_of(imageLoad(sums, pixel));
+        imageStore(sums, pixel, texel_of(gn_fuse(fused, 1.0 / float(u.count) - v / float(u.count))));
+        return;
+    }
+#endif
     vec4 before = u.begins != 0 ? vec4(0.0) : imageLoad(sums, pixel);
     imageStore(sums, pixel, before + (weight > 0.0 ? weight * GN_SUM(v) : vec4(0.0)));
 }
 )";
 
+// A light part whose pieces may be united otherwise than by their sum says how: GN_LIGHT_FUSION(params), one of
+// shadow/receiver/fusion.h. What each hides is then a share of the whole light, V has one channel, and the sums hold the greatest
+// and either the sum or what is left.
+constexpr const char* fusion_text = R"(
+#ifdef GN_LIGHT_FUSION
+#include "shadow/receiver/fusion.glsl"
+bool multiplies() { return GN_LIGHT_FUSION(u.params) == GN_FUSION_PRODUCT; }
+GnFused fused_of(vec4 texel) { return GnFused(texel.x, texel.y, texel.x); }
+vec4 texel_of(GnFused fused) { return vec4(multiplies() ? fused.left : fused.sum, fused.most, 0.0, 0.0); }
+#endif
+)";
+
 constexpr const char* mean_text = R"(
     vec4 sum = imageLoad(sums, pixel);
     GN_V v = GN_SUM_WEIGHT(sum) > 0.0 ? GN_V_OF(sum) / GN_SUM_WEIGHT(sum) : GN_V(1.0);
+#ifdef GN_LIGHT_FUSION
+    if (GN_LIGHT_FUSION(u.params) != GN_FUSION_SUM) {
+        v = 1.0 - gn_fused(fused_of(sum), GN_LIGHT_FUSION(u.params));
+    }
+#endif
     imageStore(visibility, pixel, counted ? GN_V_TEXEL(gn_unit(v)) : vec4(0.0));
 }
 )";
@@ -64,6 +88,11 @@ std::string sums_text(uint channels) {
     return channels_text(channels) +
            (channels == 1 ? "#define GN_SUM(v) vec4(v, 1.0, 0.0, 0.0)\n#define GN_SUM_WEIGHT(sum) (sum).g\n"
                           : "#define GN_SUM(v) vec4(v, 1.0)\n#define GN_SUM_WEIGHT(sum) (sum).a\n");
+}
+
+/// The light part's functions; of V with three channels pieces are summed.
+std::string part_text(const Part& part, uint channels) {
+    return include_line(part.glsl) + (channels == 1 ? "" : "#undef GN_LIGHT_FUSION\n");
 }
 
 std::uint32_t of_lattice(std::uint32_t pixels, const PixelLattice& lattice) {
@@ -158,13 +187,14 @@ void add_one(const FrameInput& one, const Recipe& recipe, const Turn& turn, Text
     const uint channels = channels_of(one.graph, visibility);
     inputs.image(image_format(sums_format(channels)), "", "image2D", "sums", sums);
     const auto prologue = [&] {
-        return sums_text(channels) + include_line(part.glsl) +
+        return sums_text(channels) + part_text(part, channels) +
                fmt::format(
                    "#define GN_WEIGHT(light, one, p_ws, pixel, index, count) "
                    "gn_{}_weight(light, one, p_ws, pixel, index, count, u.params)\n",
                    identifier(part.id));
     };
-    add_pass(one, "light: add", turn.lattice, std::move(inputs), prologue, std::string(begin_text) + add_text);
+    add_pass(one, "light: add", turn.lattice, std::move(inputs), prologue,
+             std::string(fusion_text) + begin_text + add_text);
 }
 
 }  // namespace
@@ -219,12 +249,14 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
     graph.hold(few);
     Visibility result{create_visibility(graph, input.samples, channels)};
     ShaderInputs inputs;
-    inputs.constant("GnLight", "light", input.whole_light().shape);
+    inputs.constant("GnLight", "light", input.whole_light().shape)
+        .constant_bytes(recipe.light->params_type, "params", recipe.block(*recipe.light).bytes());
     inputs.image(image_format(sums_format(channels)), "readonly", "image2D", "sums", sums);
     inputs.image(image_format(visibility_format(channels)), "writeonly", "image2D", "visibility", result.image);
     add_pass(
-        input, "light: mean", {}, std::move(inputs), [&] { return sums_text(channels); },
-        std::string(begin_text) + mean_text);
+        input, "light: mean", {}, std::move(inputs),
+        [&] { return sums_text(channels) + part_text(*recipe.light, channels); },
+        std::string(fusion_text) + begin_text + mean_text);
     return result;
 }
 

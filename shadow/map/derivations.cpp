@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The names by which lookups ask for what is made of a map.
 #include "shadow/casters/peel.h"
+#include "shadow/casters/slices.h"
 #include "shadow/map/derived.h"
 #include "shadow/map/steps.h"
 #include "shadow/map/sums.h"
@@ -22,7 +23,11 @@ TextureHandle add_all_mips(const DerivedFrom& from) {
     return add_mipmapped(from.input.graph, from.source);
 }
 
-constexpr std::array<Derivation, 11> all_derivations{{
+TextureHandle slices_of(const DerivedFrom& from) {
+    return add_slices(from.input, from.recipe, from.views, from.count);
+}
+
+constexpr std::array<Derivation, 14> all_derivations{{
     {"min-max", "depth", "A pyramid of least and greatest depths.", 0, false,
      [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source); }},
     {"block-min-max", "depth", "The same from blocks of 8 x 8 texels on.", 0, false,
@@ -41,8 +46,17 @@ constexpr std::array<Derivation, 11> all_derivations{{
      add_sums},
     {"mip-depths", "depth", "Depths with all mips.", 0, true, add_all_mips},
     {"mip-moments", "moments", "Moments with all mips.", 0, true, add_all_mips},
-    {"steps-", "depth", "Where the nearest texel lies that stands behind a step of depth, up to so many texels away.", 128,
-     false, [](const DerivedFrom& from) { return add_steps(from.input.graph, from.source, from.count); }},
+    {"steps-", "depth", "Where the nearest texel lies that stands behind a step of depth, up to so many texels away.",
+     128, false, [](const DerivedFrom& from) { return add_steps(from.input.graph, from.source, from.count); }},
+    {"slice-n-buffers-", "depth", "How much of any square of 2^l texels so many slices of the scene cover.",
+     most_slices, true,
+     [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, slices_of(from), NBuffer::mean); }},
+    {"summed-slices-", "depth", "Tables of sums of what so many slices of the scene cover.", most_slices, false,
+     [](const DerivedFrom& from) {
+         return add_sat(from.input.graph, slices_of(from), {.table = GN_SAT_FLOAT32}, from.input.prepared);
+     }},
+    {"mip-slices-", "depth", "What so many slices of the scene cover, with all mips.", most_slices, true,
+     [](const DerivedFrom& from) { return add_mipmapped(from.input.graph, slices_of(from)); }},
     {"peeled-", "depth", "The nearest surfaces under each texel, nearest first.", most_peeled, false,
      [](const DerivedFrom& from) { return add_peeled(from.input, from.recipe, from.views, from.count); }},
 }};
@@ -96,11 +110,11 @@ void add_derived(const FrameInput& input, const Recipe& recipe, const LightViews
         if (from == nullptr || map.find(need) != nullptr) {
             continue;
         }
-        if (derivation->filters && !filters(input.device, input.graph.desc(from->texture))) {
+        const TextureHandle texture = derivation->add({input, recipe, views, from->texture, count});
+        if (derivation->filters && !filters(input.device, input.graph.desc(texture))) {
             refuse("lookup '{}' reads {}, which needs the feature {}, which device '{}' lacks", recipe.lookup->id, need,
                    feature_name(Feature::float32_filter), input.device.info().name);
         }
-        const TextureHandle texture = derivation->add({input, recipe, views, from->texture, count});
         map.offers.push_back({std::string(need), texture, derivation->filters ? trilinear() : nearest()});
     }
 }

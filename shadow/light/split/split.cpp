@@ -96,6 +96,9 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
             "points; use placement=fit or cube",
             recipe.placement->id, light.name);
     }
+    if (params.fusion != GN_FUSION_SUM && recipe.translucent_map != nullptr) {
+        return "coloured shadows are summed over the light's pieces; split.fusion=sum does so";
+    }
     return {};
 }
 
@@ -132,6 +135,11 @@ const Part& light_split() {
                 GnSplitParams, round, boolean, 0, 1, "",
                 "Discs, spheres and suns, too, are cut, into four of half their radius where `side` is above 1; else "
                 "they stay whole."),
+            GN_CHOICE(GnSplitParams, fusion,
+                      "What pieces hide together, of which each hides a share of the whole light: the sum, which is right for "
+                      "pieces that lie apart as these do; the greatest, the middle of the two, or the product of what they leave, "
+                      "which err as they do for casters.",
+                      "sum", "max", "mean", "product"),
         });
         p.params_type = "GnSplitParams";
         p.glsl = "shadow/light/split/split.glsl";

@@ -7,6 +7,9 @@
 #include "shadow/scene/light.h"
 
 #ifndef __cplusplus
+// How shadow/light/weighted.cpp unites what pieces hide.
+#define GN_LIGHT_FUSION(params) ((params).fusion)
+
 // Pieces are of one size, and V is uniform over them.
 float gn_split_weight(GnLight light, GnLight one, vec3 p_ws, ivec2 pixel, int index, int count, GnSplitParams params) {
     return 1.0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The pieces of a rectangle tile it, and V of it is the mean of theirs.
 #include "shadow/light/split/split.h"
+#include "scenes/analytic.h"
 #include "tests/rig.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gn {
 namespace {
@@ -58,6 +60,42 @@ TEST(Split, RoundPiecesSpreadAsTheLightDoes) {
         }
         light.shape.radius = light.shape.angular_radius = 0;
         EXPECT_EQ(part.split(light, recipe).size(), 1U) << "a light without extent has no pieces";
+    }
+}
+
+/// [EASW09] eq. 1.5, of shares of the whole light that closed forms tell of each piece.
+TEST(SplitRendered, PiecesFuseByTheRuleOfTheirName) {
+    const scenes::Sheet sheet{2, {-12, -12}, {0, 12}};
+    for (const char* fusion : {"sum", "max", "mean", "product"}) {
+        const std::string text = fmt::format("backprojection,resolution=192,light=split,split.fusion={}", fusion);
+        const auto c = test::compare("half-plane", text, {.width = 40, .height = 30, .samples = 1});
+        const std::vector<Light> pieces =
+            find_part(Stage::light, "split").split(c.scene.lights.front(), load_recipe(text));
+        double squares = 0;
+        double count = 0;
+        for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+            if (c.truth.counted[i] == 0) {
+                continue;
+            }
+            double sum = 0, most = 0, left = 1;
+            for (const Light& piece : pieces) {
+                const dvec3 p_ws(c.frame.samples.position_ws[i]);
+                const double hidden = (1 - *scenes::sheet_visibility(piece.shape, {&sheet, 1}, p_ws)) / 4;
+                sum += hidden;
+                most = std::max(most, hidden);
+                left *= 1 - hidden;
+            }
+            const std::string rule(fusion);
+            const double expected = rule == "sum"    ? 1 - sum
+                                    : rule == "max"  ? 1 - most
+                                    : rule == "mean" ? 1 - (most + sum) / 2
+                                                     : left;
+            const double wrong = c.visibility().values[i] - expected;
+            squares += wrong * wrong;
+            count += 1;
+        }
+        EXPECT_GT(count, 100);
+        EXPECT_LE(std::sqrt(squares / count), 0.02) << fusion;
     }
 }
 

@@ -106,9 +106,10 @@ ParamTable rows() {
                   "edge; on a map of how far each blocked texel's region goes on, which lightens its inside alone; or "
                   "on the picture, where edges grow by a pixel a pass, or by halved jumps in a few passes.",
                   "radial", "width-map", "flood", "jump-flood"),
-        GN_PARAM(GnFakePenumbraParams, radius, integer, 1, most_radius, "texels",
-                 "How far from an edge its penumbra reaches at most, with the floods in pixels: cost grows with it, and "
-                 "what is wider is cut to it."),
+        GN_PARAM(
+            GnFakePenumbraParams, radius, integer, 1, most_radius, "texels",
+            "How far from an edge its penumbra reaches at most, with the floods in pixels: cost grows with it, and "
+            "what is wider is cut to it."),
         GN_PARAM(GnFakePenumbraParams, least, real, 0, 16, "texels",
                  "Half width of the narrowest penumbra, with the floods in pixels: below one the map's texels show at "
                  "contacts."),

@@ -129,8 +129,8 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     // What casts the edge stands where the receiver is dark, or where the texel is that was found.
     float blocker = own.lit ? gn_fake_tap(at, depth, axis, found.texel).distance : own.distance;
     float spread = gn_pcss_spread_at(at, region.receiver, blocker);
-    float steps = length(gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, found.texel));
-    float x = gn_fake_distance(steps, found.reach, spread, params.least, float(params.radius));
+    float away = length(gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, found.texel));
+    float x = gn_fake_distance(away, found.reach, spread, params.least, float(params.radius));
     return gn_fake_ramp(half_light.square, own.lit ? x : -x);
 }
 #elif defined(GN_FAKE_WIDTHS)
