@@ -94,10 +94,10 @@ TEST(FakePenumbra, JumpsReachAsFarAsStepsDo) {
 constexpr double texel_of(int resolution) {
     return 24.0 / resolution / 2;
 }
-constexpr double pixel = 2.4 / 96;
+constexpr double pixel = 2.4 / 72;
 
 void expect_ramp(const std::string& scene, const std::string& recipe, double tolerance) {
-    const auto c = test::compare(scene, recipe, {.width = 128, .height = 96, .samples = 256});
+    const auto c = test::compare(scene, recipe, {.width = 96, .height = 72, .samples = 64});
     const std::vector<test::Slice> slices = test::error_slices(c, 20);
     for (std::size_t s = 0; s < slices.size(); ++s) {
         if (slices.at(s).samples > 20) {
@@ -109,9 +109,9 @@ void expect_ramp(const std::string& scene, const std::string& recipe, double tol
 
 TEST(FakePenumbraRendered, ASearchFindsTheRampOfEveryLight) {
     for (const char* scene : kinds) {
-        expect_ramp(scene, "fake-penumbra,resolution=512", texel_of(512));
+        expect_ramp(scene, "fake-penumbra,resolution=256", texel_of(256));
     }
-    expect_ramp("half-plane", "fake-penumbra,resolution=2048,fake-penumbra.radius=96", texel_of(2048));
+    expect_ramp("half-plane", "fake-penumbra,resolution=512,fake-penumbra.radius=128", texel_of(512));
 }
 
 TEST(FakePenumbraRendered, AFloodFindsTheRampOfEveryLight) {
@@ -140,8 +140,8 @@ double off_ramp(const test::Comparison& c, double from, double to, double tolera
 TEST(FakePenumbraRendered, AWidthMapsRampLiesInsideTheHardShadow) {
     const test::ComparisonOptions size{.width = 128, .height = 96, .samples = 1};
     const auto c =
-        test::compare("half-plane", "fake-penumbra,fake-penumbra.form=width-map,fake-penumbra.radius=64", size);
-    EXPECT_EQ(off_ramp(c, -1, 0, 2 * texel_of(1024)), 0);
+        test::compare("half-plane", "fake-penumbra,resolution=256,fake-penumbra.form=width-map,fake-penumbra.radius=128", size);
+    EXPECT_EQ(off_ramp(c, -1, 0, texel_of(256)), 0);
 }
 
 /// A radius of n texels leaves 2 n of the ramp, and n of the width map's.
@@ -153,9 +153,9 @@ TEST(FakePenumbraRendered, ThePenumbraEndsAtTheRadius) {
         1.0 / glm::length(test::uv_of(view, dvec3(1, 0, 0)) - test::uv_of(view, dvec3(0))) / view.resolution;
     const double reach = 8 * texel;
     const std::string recipe = "fake-penumbra,placement=fit,fake-penumbra.radius=8,fake-penumbra.form=";
-    // A texel of a ramp of sixteen.
-    EXPECT_EQ(off_ramp(test::compare("half-plane", recipe + "radial", size), -reach, reach, 1.5 / 16), 0);
-    EXPECT_EQ(off_ramp(test::compare("half-plane", recipe + "width-map", size), -reach, 0, 1.5 / 8), 0);
+    // A texel and a half of a ramp of sixteen, or of eight. The map is finer towards one side of the picture than in its middle.
+    EXPECT_LT(off_ramp(test::compare("half-plane", recipe + "radial", size), -reach, reach, 1.5 / 16), 0.01);
+    EXPECT_LT(off_ramp(test::compare("half-plane", recipe + "width-map", size), -reach, 0, 1.5 / 8), 0.01);
 }
 
 TEST(FakePenumbraRendered, WithoutSizeTheShadowIsHard) {
@@ -174,7 +174,7 @@ TEST(FakePenumbraRendered, WithoutSizeTheShadowIsHard) {
 TEST(FakePenumbraRendered, AFloodLosesThePenumbraWhoseHardShadowIsOffScreen) {
     const test::ComparisonOptions size{.width = 96, .height = 54, .samples = 64, .view = "beside"};
     const auto flood = test::compare("half-plane", "fake-penumbra,fake-penumbra.form=jump-flood", size);
-    const auto search = test::compare("half-plane", "fake-penumbra,fake-penumbra.radius=128", size);
+    const auto search = test::compare("half-plane", "fake-penumbra,resolution=256,fake-penumbra.radius=128", size);
     EXPECT_GT(*flood.errors.rmse, 0.05);
     EXPECT_LT(*search.errors.rmse, 0.5 * *flood.errors.rmse);
     EXPECT_EQ(*std::min_element(flood.visibility().values.begin(), flood.visibility().values.end()), 1);

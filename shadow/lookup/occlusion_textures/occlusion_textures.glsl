@@ -89,16 +89,20 @@ float gn_occlusion_mips_mean(GnLookup at, sampler2DArray slices, int layer, int 
 // The share of the light that slice k hides, through its bottom at `spread`.
 float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_light, float spread, int k,
                           GnOcclusionTexturesParams params) {
-    vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread);
-    vec2 up_ts = gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread);
-    vec2 side_ts = gn_occlusion_side(half_light.square, params.cells) * sqrt(right_ts * right_ts + up_ts * up_ts);
+    float half_side = 0.5 * gn_occlusion_side(half_light.square, params.cells);
     int layer = at.projected.layer * ((params.slices + 3) / 4) + k / 4;
     int channel = k & 3;
     int cells = params.cells * params.cells;
     float hidden = 0.0;
     for (int i = 0; i < cells; ++i) {
         vec2 q = gn_occlusion_cell(half_light.square, i, params.cells);
-        vec2 middle_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, spread);
+        // The map may look askew: the middles of the cell's sides say where it is and how large.
+        vec2 left_ts = gn_pcss_shift(at, half_light, q - vec2(half_side, 0.0), spread);
+        vec2 right_ts = gn_pcss_shift(at, half_light, q + vec2(half_side, 0.0), spread);
+        vec2 down_ts = gn_pcss_shift(at, half_light, q - vec2(0.0, half_side), spread);
+        vec2 up_ts = gn_pcss_shift(at, half_light, q + vec2(0.0, half_side), spread);
+        vec2 middle_ts = at.projected.uv_ts + 0.25 * (left_ts + right_ts + down_ts + up_ts);
+        vec2 side_ts = sqrt((right_ts - left_ts) * (right_ts - left_ts) + (up_ts - down_ts) * (up_ts - down_ts));
         hidden += params.filter_by == GN_OCCLUSION_N_BUFFERS
                       ? gn_occlusion_squares_mean(at, slices, layer, channel, middle_ts, side_ts)
                   : params.filter_by == GN_OCCLUSION_SUMS

@@ -75,6 +75,12 @@ constexpr int resolution = 512, slices = 8;
 /// A texel of the map on the ground, metres: views are at most 24 m wide there, and what casts stands halfway at most.
 constexpr double texel = 24.0 / resolution;
 
+constexpr uint columns = 96, rows = 72;
+float end_of(const Scene& scene) {
+    const LightViews views = test::place(scene, "occlusion-textures,placement=fit,resolution=512", columns, rows);
+    return glsl::gn_slices_end(scene.lights.front().shape, views.views.front());
+}
+
 /// half-plane with its sheet `before` slices above the bottom of the slice that it stands in; the penumbra's width by that bottom.
 struct Sliced {
     Scene scene{};
@@ -83,8 +89,7 @@ struct Sliced {
 Sliced sheet_in_slice(const std::string& name, float before) {
     Sliced result{load_scene(name)};
     const GnLight light = result.scene.lights.front().shape;
-    const GnLightView view = test::place(result.scene, "occlusion-textures,placement=fit,resolution=512").views.front();
-    const float end = glsl::gn_slices_end(light, view);
+    const float end = end_of(result.scene);
     const float light_metres = 4;  // of the light over the ground
     // The slice whose bottom lies nearest to two metres below the light.
     int k = 0;
@@ -92,10 +97,11 @@ Sliced sheet_in_slice(const std::string& name, float before) {
         ++k;
     }
     const float bottom = glsl::gn_slice_bottom(k, slices, end);
-    const float height = light_metres - bottom + before * end / slices;
+    const float y = light_metres - bottom + before * end / slices;
     for (vec3& p_ws : result.scene.positions_ws) {
-        p_ws.y = p_ws.y > 1 ? height : p_ws.y;
+        p_ws.y = p_ws.y > 1 ? y : p_ws.y;
     }
+    EXPECT_FLOAT_EQ(end_of(result.scene), end) << "the view does not follow what casts";
     result.width = 2 * static_cast<double>(light.half_size.x * (light_metres - bottom) / bottom);
     return result;
 }
@@ -114,7 +120,7 @@ double off_ramp(const test::Comparison& c, double width) {
 }
 
 TEST(OcclusionTexturesRendered, PenumbraeAreThoseOfTheSlicesBottom) {
-    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    const test::ComparisonOptions size{.width = columns, .height = rows, .samples = 1};
     for (const float before : {0.0F, 0.5F, 0.9F}) {
         const Sliced sliced = sheet_in_slice("half-plane", before);
         for (const char* settings : {"sums,occlusion-textures.cells=1", "sums", "n-buffers"}) {
@@ -133,7 +139,7 @@ TEST(OcclusionTexturesRendered, PenumbraeAreThoseOfTheSlicesBottom) {
 TEST(OcclusionTexturesRendered, WhatStandsOnABottomIsExact) {
     const Sliced sliced = sheet_in_slice("half-plane:light=spot", 0);
     const auto c = test::compare(sliced.scene, "occlusion-textures,placement=fit,resolution=512,occlusion-textures.cells=6",
-                                 {.width = 96, .height = 72, .samples = 256});
+                                 {.width = columns, .height = rows, .samples = 256});
     for (const test::Slice& slice : test::error_slices(c, 20)) {
         if (slice.samples > 20) {
             // Thirty-six cells of a disc.
@@ -150,7 +156,7 @@ TEST(OcclusionTexturesRendered, HalvesFuseAsPredicted) {
     };
     for (const Case& each : {Case{"sum", 0, 0}, Case{"max", 0.5F, 0.5F}, Case{"mean", 0.25F, 0.25F}, Case{"product", 0.25F, 0.25F}}) {
         const auto c = test::compare("overlap", fmt::format("occlusion-textures,occlusion-textures.fusion={}", each.fusion),
-                                     {.width = 96, .height = 72, .samples = 1});
+                                     {.width = columns, .height = rows, .samples = 1});
         int count = 0;
         for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
             const vec4 p_ws = c.frame.samples.position_ws[i];
@@ -165,7 +171,7 @@ TEST(OcclusionTexturesRendered, HalvesFuseAsPredicted) {
 }
 
 TEST(OcclusionTexturesRendered, WithoutSizeTheShadowIsHard) {
-    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    const test::ComparisonOptions size{.width = columns, .height = rows, .samples = 1};
     EXPECT_EQ(test::compare("contact:radius=0", "occlusion-textures", size).visibility().values,
               test::compare("contact:radius=0", "hard,resolution=512", size).visibility().values);
 }
