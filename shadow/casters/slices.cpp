@@ -45,9 +45,11 @@ BufferHandle add_no_bits(const FrameInput& input, const LightViews& views) {
 TextureHandle add_slices(const FrameInput& input, const Recipe& recipe, const LightViews& views, int count) {
     GN_CHECK(count >= 1 && count <= most_slices);
     if (input.handles.drawn != nullptr) {
-        refuse("lookup '{}' sorts fragments of casters into slices, which a renderer that draws its casters itself cannot; "
-               "lend their buffers",
-               recipe.lookup->id);
+        refuse(
+            "lookup '{}' sorts fragments of casters into slices, which a renderer that draws its casters itself "
+            "cannot; "
+            "lend their buffers",
+            recipe.lookup->id);
     }
     // A fragment knows its layer where views are drawn one by one, and nothing of it is kept over frames.
     LightViews drawn = views;

@@ -4,6 +4,7 @@
 
 #include "shadow/casters/kept_map.h"
 #include "shadow/frame/map_memory.h"
+#include "shadow/frame/seen_by.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/light/weighted.h"
 #include "shadow/map/derived.h"
@@ -16,9 +17,6 @@
 
 namespace gn {
 
-namespace {
-
-/// The same with other samples.
 FrameInput seen_by(const FrameInput& input, const ViewSamples& samples) {
     FrameInput other{input.device, input.graph, input.scene, input.handles, samples};
     other.source = input.source;
@@ -32,6 +30,8 @@ FrameInput seen_by(const FrameInput& input, const ViewSamples& samples) {
     other.reach = input.reach;
     return other;
 }
+
+namespace {
 
 /// The map and what is made of it.
 ShadowMap add_map(const FrameInput& input, const Recipe& recipe, const LightViews& views) {

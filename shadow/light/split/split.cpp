@@ -136,8 +136,10 @@ const Part& light_split() {
                 "Discs, spheres and suns, too, are cut, into four of half their radius where `side` is above 1; else "
                 "they stay whole."),
             GN_CHOICE(GnSplitParams, fusion,
-                      "What pieces hide together, of which each hides a share of the whole light: the sum, which is right for "
-                      "pieces that lie apart as these do; the greatest, the middle of the two, or the product of what they leave, "
+                      "What pieces hide together, of which each hides a share of the whole light: the sum, which is "
+                      "right for "
+                      "pieces that lie apart as these do; the greatest, the middle of the two, or the product of what "
+                      "they leave, "
                       "which err as they do for casters.",
                       "sum", "max", "mean", "product"),
         });

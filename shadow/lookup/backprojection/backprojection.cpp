@@ -4,10 +4,12 @@
 // Based on: Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. EGSR 2006. [GBP06]
 //
 // Also here: area.glsl, bitmask.glsl, contours.glsl, cover.glsl, light_plane.glsl, patches.glsl, quads.glsl, search.glsl.
-// Also here: texels.glsl.
+// Also here: texels.glsl, sparse.h, sparse.cpp, sparse.glsl.
 #include "shadow/lookup/backprojection/backprojection.h"
 #include "shadow/lookup/backprojection/light_plane.glsl"
+#include "shadow/lookup/backprojection/sparse.h"
 
+#include "shadow/frame/frame.h"
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
@@ -53,6 +55,30 @@ std::string prologue(const Recipe& recipe) {
         "#define GN_BACK_OCCLUDER {}\n#define GN_BACK_COMBINE {}\n#define GN_BACK_PYRAMID {}\n"
         "#define GN_BACK_LAYERS {}\n#define GN_BACK_FUSION {}\n#define GN_BACK_CORNERS {}\n",
         params.occluder, params.combine, params.pyramid, params.layers, params.fusion, params.corners);
+}
+
+std::string footprint_prologue(const Recipe& recipe) {
+    return prologue(recipe) + "#define GN_BACK_FOOTPRINT\n";
+}
+
+/// The part as the shared resolve pass runs it.
+Part pass_of(const Part& part, std::string (*with)(const Recipe&)) {
+    Part pass = part;
+    pass.add_lookup = nullptr;
+    pass.prologue = with;
+    return pass;
+}
+
+Visibility add_lookup(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
+    static const Part footprint = pass_of(*recipe.lookup, footprint_prologue);
+    static const Part lookup = pass_of(*recipe.lookup, prologue);
+    // What is told beside V, and objects, are of every sample; a light without size has no penumbrae.
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    const bool sized = glsl::gn_back_has_size(input.light().shape) || params.least > 0;
+    if (params.sparse == 0 || !sized || !input.sides.empty() || recipe.casters == Casters::ids) {
+        return add_resolve(input, recipe, views, map);
+    }
+    return add_sparse(input, recipe, views, map, footprint, lookup);
 }
 
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
@@ -123,6 +149,12 @@ ParamTable rows() {
                   "What several layers hide together: the union of their points; of each texel the farthest before the "
                   "receiver alone; or the sum, the greatest, the mean or the product of what each hides.",
                   "union", "farthest", "sum", "max", "mean", "product"),
+        GN_PARAM(GnBackprojectionParams, sparse, integer, 0, 4, "",
+                 "Looks up samples of wide penumbrae only so many doublings of a pixel apart, and interpolates the "
+                 "others: faster, "
+                 "steps and patterns where the guess of the width is wrong; 0 looks up all."),
+        GN_PARAM(GnBackprojectionParams, sparse_samples, real, 1, 64, "",
+                 "Samples across a penumbra, along a row of the picture, that are kept with `sparse`."),
     });
 }
 
@@ -146,6 +178,7 @@ const Part& lookup_backprojection() {
         p.params = rows();
         p.params_type = "GnBackprojectionParams";
         p.glsl = "shadow/lookup/backprojection/backprojection.glsl";
+        p.add_lookup = add_lookup;
         p.guard = guard;
         p.prologue = prologue;
         p.refuses = refuses;

@@ -10,6 +10,7 @@
 #include "shadow/lookup/backprojection/patches.glsl"
 #include "shadow/lookup/backprojection/quads.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
+#include "shadow/lookup/backprojection/sparse.glsl"
 
 #ifndef __cplusplus
 
@@ -111,6 +112,20 @@ GnBackSearch gn_back_search_of(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnB
     return gn_back_search(at, GN_BACK_THESE, light, gn_back_rays(at.view, light), params);
 }
 
+// A pass that only asks how far apart samples may be looked up:
+//   #define GN_BACK_FOOTPRINT
+#ifdef GN_BACK_FOOTPRINT
+// gn_back_told of it: what least and greatest depth decide, or how many halvings apart samples may lie that a penumbra as wide as
+// the searched area holds `sparse_samples` of across.
+float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionParams params) {
+    GnBackLight light = gn_back_light(at.light, at.receiver.p_ws);
+    GnBackSearch search = gn_back_search_of(at, GN_BACK_THESE, light, params);
+    vec2 texels = vec2(max(search.texels.zw - search.texels.xy - 1, ivec2(0)));
+    float width_ws = min(texels.x, texels.y) * at.projected.texel_ws;
+    float pixels = width_ws / max(length(at.receiver.ddx_ws), length(at.receiver.ddy_ws));
+    return gn_back_told(search.visibility, gn_back_apart(pixels, params));
+}
+#else
 float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionParams params) {
     if (!gn_back_has_size(at.light) && params.least == 0.0) {
         return gn_back_hard(at, depth);
@@ -126,6 +141,7 @@ float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionPa
     }
     return 1.0 - hidden;
 }
+#endif
 
 // Texels that are read of the receiver's own view; 0 where least and greatest depth decide.
 float gn_backprojection_visited_texels(GnLookup at, GN_BACK_MAPS, GnBackprojectionParams params) {

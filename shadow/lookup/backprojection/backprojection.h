@@ -41,6 +41,8 @@ struct GnBackprojectionParams {
     float gap_limit GN_DEFAULT(0.0f);
     int layers GN_DEFAULT(1);
     int fusion GN_DEFAULT(GN_BACK_UNION);
+    int sparse GN_DEFAULT(0);
+    float sparse_samples GN_DEFAULT(8.0f);
 };
 
 #endif

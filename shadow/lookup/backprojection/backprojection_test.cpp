@@ -5,6 +5,7 @@
 #include "shadow/lookup/backprojection/cover.glsl"
 #include "shadow/lookup/backprojection/light_plane.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
+#include "shadow/lookup/backprojection/sparse.glsl"
 #include "tests/rig.h"
 #include "tests/warp_scene.h"
 
@@ -327,6 +328,50 @@ TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
         for (const char* pyramid : {"pyramid=hsm", "pyramid=mssm", "pyramid=ysm", "early_out=false", "refine=0"}) {
             EXPECT_EQ(values(pyramid), all) << scene << ", " << pyramid;
         }
+    }
+}
+
+TEST(Backprojection, SamplesMoveApartAsPenumbraeWiden) {
+    GnBackprojectionParams params;
+    params.sparse = 3;
+    params.sparse_samples = 8;
+    EXPECT_EQ(glsl::gn_back_apart(0, params), 0);
+    EXPECT_EQ(glsl::gn_back_apart(15.9F, params), 0);
+    EXPECT_EQ(glsl::gn_back_apart(16.1F, params), 1);
+    EXPECT_EQ(glsl::gn_back_apart(40, params), 2);
+    EXPECT_EQ(glsl::gn_back_apart(1000, params), 3);
+
+    // What a pass tells the next one arrives, and a mixture of two views is neither.
+    for (int apart = 0; apart <= 4; ++apart) {
+        const float told = glsl::gn_back_told(-1, apart);
+        EXPECT_EQ(glsl::gn_back_told_visibility(told), -1);
+        EXPECT_EQ(glsl::gn_back_told_apart(told), apart);
+    }
+    EXPECT_EQ(glsl::gn_back_told_visibility(glsl::gn_back_told(1, 2)), 1);
+    EXPECT_EQ(glsl::gn_back_told_visibility(glsl::gn_back_told(0, 2)), 0);
+    EXPECT_EQ(glsl::gn_back_told_visibility(0.9F), -1);
+    EXPECT_EQ(glsl::gn_back_told_apart(0.9F), 0);
+}
+
+/// Samples that are looked up lattice by lattice have the V that they have together; what is interpolated is near it.
+TEST(BackprojectionRendered, SparseSamplesAreTheSameAndOthersAreNear) {
+    const test::ComparisonOptions size{.width = 63, .height = 47, .samples = 1};
+    for (const char* scene : {"slab", "contact:light=spot"}) {
+        const auto values = [&](const char* settings) {
+            return test::compare(scene, fmt::format("backprojection,resolution=256{}", settings), size)
+                .visibility()
+                .values;
+        };
+        const std::vector<float> all = values("");
+        EXPECT_EQ(values(",backprojection.sparse=3,backprojection.sparse_samples=64"), all)
+            << "no penumbra is as wide as twice the picture";
+        const std::vector<float> some = values(",backprojection.sparse=3,backprojection.sparse_samples=4");
+        double squares = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            squares += static_cast<double>((some[i] - all[i]) * (some[i] - all[i]));
+        }
+        // A ramp of n samples, between which a curve of at most one over its width is straight: n^-2 / 8 and its like at corners.
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.02) << scene;
     }
 }
 

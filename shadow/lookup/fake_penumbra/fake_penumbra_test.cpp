@@ -139,8 +139,8 @@ double off_ramp(const test::Comparison& c, double from, double to, double tolera
 /// The ramp that the width map draws lies inside the hard shadow, all of its metre.
 TEST(FakePenumbraRendered, AWidthMapsRampLiesInsideTheHardShadow) {
     const test::ComparisonOptions size{.width = 128, .height = 96, .samples = 1};
-    const auto c =
-        test::compare("half-plane", "fake-penumbra,resolution=256,fake-penumbra.form=width-map,fake-penumbra.radius=128", size);
+    const auto c = test::compare(
+        "half-plane", "fake-penumbra,resolution=256,fake-penumbra.form=width-map,fake-penumbra.radius=128", size);
     EXPECT_EQ(off_ramp(c, -1, 0, texel_of(256)), 0);
 }
 

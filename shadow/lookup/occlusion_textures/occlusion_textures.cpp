@@ -42,17 +42,21 @@ std::vector<std::string_view> needs_for(const Recipe& recipe) {
 ParamTable rows() {
     return param_table<GnOcclusionTexturesParams>({
         GN_PARAM(GnOcclusionTexturesParams, slices, integer, least_slices, most_slices, "",
-                 "Slices between the light and the farthest receiver: truer widths and shadows that begin nearer to what casts "
+                 "Slices between the light and the farthest receiver: truer widths and shadows that begin nearer to "
+                 "what casts "
                  "them, cost and memory in proportion."),
         GN_CHOICE(GnOcclusionTexturesParams, filter_by,
-                  "What gives the mean over a rectangle: squares of 2^l texels anywhere, which overlap in between; tables of sums, "
+                  "What gives the mean over a rectangle: squares of 2^l texels anywhere, which overlap in between; "
+                  "tables of sums, "
                   "which are exact and four times as dear to read; or mips, which are blocky.",
                   "n-buffers", "sums", "mips"),
         GN_PARAM(GnOcclusionTexturesParams, cells, integer, 1, 8, "",
-                 "Cells along the light's sides, each a rectangle of the map: one suffices for a rectangular light along the map's "
+                 "Cells along the light's sides, each a rectangle of the map: one suffices for a rectangular light "
+                 "along the map's "
                  "axes, discs and turned ones take the shape of their cells; cost grows with the square."),
         GN_CHOICE(GnOcclusionTexturesParams, fusion,
-                  "What slices hide together: the sum of what each hides, the greatest, the middle of these two, between which "
+                  "What slices hide together: the sum of what each hides, the greatest, the middle of these two, "
+                  "between which "
                   "the truth lies, or the product of what they leave.",
                   "sum", "max", "mean", "product"),
     });

@@ -126,7 +126,9 @@ TEST(OcclusionTexturesRendered, PenumbraeAreThoseOfTheSlicesBottom) {
         for (const char* settings : {"sums,occlusion-textures.cells=1", "sums", "n-buffers"}) {
             const auto c = test::compare(
                 sliced.scene,
-                fmt::format("occlusion-textures,placement=fit,resolution=512,occlusion-textures.filter_by={}", settings), size);
+                fmt::format("occlusion-textures,placement=fit,resolution=512,occlusion-textures.filter_by={}",
+                            settings),
+                size);
             // Squares that overlap bend the ramp by at most an eighth where they cover half of each other, a third of that each
             // where three cells share it.
             const double bent = std::string(settings) == "n-buffers" ? 1.0 / 24 : 0;
@@ -138,8 +140,9 @@ TEST(OcclusionTexturesRendered, PenumbraeAreThoseOfTheSlicesBottom) {
 /// On a bottom the penumbra is the true one, of other lights too.
 TEST(OcclusionTexturesRendered, WhatStandsOnABottomIsExact) {
     const Sliced sliced = sheet_in_slice("half-plane:light=spot", 0);
-    const auto c = test::compare(sliced.scene, "occlusion-textures,placement=fit,resolution=512,occlusion-textures.cells=6",
-                                 {.width = columns, .height = rows, .samples = 256});
+    const auto c =
+        test::compare(sliced.scene, "occlusion-textures,placement=fit,resolution=512,occlusion-textures.cells=6",
+                      {.width = columns, .height = rows, .samples = 256});
     for (const test::Slice& slice : test::error_slices(c, 20)) {
         if (slice.samples > 20) {
             // Thirty-six cells of a disc.
@@ -154,15 +157,18 @@ TEST(OcclusionTexturesRendered, HalvesFuseAsPredicted) {
         const char* fusion;
         float coincident, complementary;
     };
-    for (const Case& each : {Case{"sum", 0, 0}, Case{"max", 0.5F, 0.5F}, Case{"mean", 0.25F, 0.25F}, Case{"product", 0.25F, 0.25F}}) {
-        const auto c = test::compare("overlap", fmt::format("occlusion-textures,occlusion-textures.fusion={}", each.fusion),
-                                     {.width = columns, .height = rows, .samples = 1});
+    for (const Case& each :
+         {Case{"sum", 0, 0}, Case{"max", 0.5F, 0.5F}, Case{"mean", 0.25F, 0.25F}, Case{"product", 0.25F, 0.25F}}) {
+        const auto c =
+            test::compare("overlap", fmt::format("occlusion-textures,occlusion-textures.fusion={}", each.fusion),
+                          {.width = columns, .height = rows, .samples = 1});
         int count = 0;
         for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
             const vec4 p_ws = c.frame.samples.position_ws[i];
             if (c.truth.counted[i] != 0 && p_ws.y < 0.1F && std::abs(p_ws.x) < 0.02F && std::abs(p_ws.z) > 1) {
                 // Two hundredths of a metre of ramps of half a metre and more.
-                EXPECT_NEAR(c.visibility().values[i], p_ws.z < 0 ? each.coincident : each.complementary, 0.08) << each.fusion;
+                EXPECT_NEAR(c.visibility().values[i], p_ws.z < 0 ? each.coincident : each.complementary, 0.08)
+                    << each.fusion;
                 ++count;
             }
         }
