@@ -27,7 +27,7 @@ TEST(SoftLimits, ALightWithoutExtentIsAHardShadows) {
     const std::vector<float> hard = values_of(scene, load_recipe("hard,resolution=256"), 0);
     EXPECT_GT(std::count(hard.begin(), hard.end(), 1.0F), 500);
     for (const char* recipe : {"pcss,pcss.least=0", "chs,chs.least=0", "sssm,sssm.least=0", "backprojection",
-                               "soft-quality,placement=auto,pcss.least=0"}) {
+                               "soft-quality,placement=auto,pcss.least=0", "fake-penumbra", "occlusion-textures"}) {
         const std::vector<float> soft = values_of(scene, load_recipe(std::string(recipe) + ",resolution=256"), 0);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < soft.size(); ++i) {
@@ -111,6 +111,8 @@ INSTANTIATE_TEST_SUITE_P(Recipes, SoftLimitsOf,
                          testing::Values(Case{"pcss,resolution=128", disc}, Case{"chs,resolution=128", panel},
                                          Case{"vssm,resolution=128", ball}, Case{"cssm,resolution=64", panel},
                                          Case{"sssm,resolution=128", disc}, Case{"backprojection,resolution=128", ball},
+                                         Case{"fake-penumbra,resolution=128", disc},
+                                         Case{"occlusion-textures,resolution=64", ball},
                                          Case{"backprojection-split,resolution=64", panel},
                                          Case{"accumulate,accumulate.lights=4,resolution=128", disc},
                                          Case{"soft,resolution=128", panel}, Case{"soft-quality,resolution=128", ball}),

@@ -7,6 +7,9 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
+#include <bit>
+#include <cstdint>
+
 namespace gn {
 namespace {
 
@@ -194,6 +197,8 @@ std::uint64_t shader_key(const FrameInput& input, const Recipe& recipe, const Li
     hasher.text(views.part->id)
         .text(recipe.map->id)
         .text(recipe.lookup->id)
+        .value(std::bit_cast<std::uintptr_t>(
+            recipe.lookup->prologue))  // a part may run several of its functions, one after the other
         .text(receiver_defines(recipe, views))
         .text(sample_text(input, recipe, views));
     for (const std::string_view side : input.sides) {

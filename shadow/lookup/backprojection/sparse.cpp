@@ -90,7 +90,8 @@ struct Push {
 };
 
 /// One pass over a lattice of the view's samples.
-void add_pass(const FrameInput& input, const char* name, ShaderInputs inputs, const char* text, const ViewSamples& few, Push push) {
+void add_pass(const FrameInput& input, const char* name, ShaderInputs inputs, const char* text, const ViewSamples& few,
+              Push push) {
     add_gbuffer(inputs, input.device, input.samples);
     inputs.constant("GnViewConstants", "view", input.samples.constants)
         .constant("GnLight", "whole", input.whole_light().shape);

@@ -27,6 +27,9 @@ GN_FN bool gn_fake_has_size(GnLight light) {
     return (light.kind == uint(GN_LIGHT_DIRECTIONAL) ? light.angular_radius : light.radius) > 0.0f;
 }
 
+// Whether there are penumbrae at all; else the shadow is hard.
+GN_FN bool gn_fake_spreads(GnLight light, GnFakePenumbraParams params) { return params.least > 0.0f || gn_fake_has_size(light); }
+
 // Half the light as gn_pcss_light has it; one without extent along an axis is a millionth as wide as it is far away.
 GN_FN GnPcssLight gn_fake_light(GnLight light, vec3 p_ws) {
     bool far = light.kind == uint(GN_LIGHT_DIRECTIONAL);

@@ -7,6 +7,7 @@
 #include "shadow/lookup/fake_penumbra/fake_flood.h"
 
 #include "shadow/frame/frame.h"
+#include "shadow/lookup/fake_penumbra/fake_edge.glsl"
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/sample_pass.h"
@@ -117,9 +118,11 @@ void main() {
     vec4 normal = gbuffer_normal_texel(pixel);
     float v = 0.0;
     if (counts(position, normal)) {
-        bool dark = texelFetch(shadows, pixel, 0).r > 0.5;
+        float shadow = texelFetch(shadows, pixel, 0).r;
+        bool dark = shadow > 0.5;
         float x = min(distance_to(position.xyz, pixel, texelFetch(edges, pixel, 0)), 1.0);
-        v = gn_unit(gn_fake_ramp(u.light.kind == uint(GN_LIGHT_RECTANGLE), dark ? -x : x));
+        v = gn_unit(gn_fake_spreads(u.light, u.params) ? gn_fake_ramp(u.light.kind == uint(GN_LIGHT_RECTANGLE), dark ? -x : x)
+                                                       : 1.0 - shadow);
     }
     imageStore(result, pixel, vec4(v));
 }
@@ -184,7 +187,10 @@ std::vector<int> flood_strides(int radius, bool jump) {
 
 Visibility add_fake_flood(const FrameInput& input, const GnFakePenumbraParams& params, TextureHandle shadows) {
     TextureHandle edges = add_step(input, params, shadows, {}, "shadow edges", edges_text, 0);
-    for (const int stride : flood_strides(params.radius, params.form == GN_FAKE_JUMP_FLOOD)) {
+    // Of a light without extent every edge stays where it is.
+    const bool spreads = glsl::gn_fake_spreads(input.light().shape, params);
+    for (const int stride :
+         spreads ? flood_strides(params.radius, params.form == GN_FAKE_JUMP_FLOOD) : std::vector<int>{}) {
         edges = add_step(input, params, {}, edges, "flood", grow_text, stride);
     }
     return {add_step(input, params, shadows, edges, "flooded penumbrae", shade_text, 0)};

@@ -35,12 +35,11 @@ bool floods(const Recipe& recipe) {
 /// Kernels end at the radius, however large the light is; a flood reads one texel.
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
     const GnFakePenumbraParams params = params_of(recipe);
-    Guard guard = light_guard(light, bounds_ws, params.least);
-    if (guard.texels > 0) {
-        guard.texels = floods(recipe) ? 2 : static_cast<float>(params.radius) + 2;
-        guard.metres = 0;
+    if (!glsl::gn_fake_spreads(light.shape, params)) {
+        return {};
     }
-    return guard;
+    return {.texels = floods(recipe) ? 2 : static_cast<float>(params.radius) + 2,
+            .before = light_guard(light, bounds_ws, params.least).before};
 }
 
 /// "steps-1" and so on, by the radius.
@@ -67,9 +66,6 @@ std::string define_of(const Recipe& recipe) {
 std::string shadows_define(const Recipe&) {
     return "#define GN_FAKE_SHADOWS\n";
 }
-std::string hard_define(const Recipe&) {
-    return "#define GN_FAKE_HARD\n";
-}
 
 /// The part as the shared resolve pass runs it.
 Part pass_of(const Part& part, std::string (*prologue)(const Recipe&), uint channels) {
@@ -88,15 +84,10 @@ Visibility resolve_with(const FrameInput& input, Recipe recipe, const Part& pass
 
 Visibility add_lookup(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     static const Part shadows = pass_of(*recipe.lookup, shadows_define, 3);
-    static const Part hard = pass_of(*recipe.lookup, hard_define, 1);
-    const GnFakePenumbraParams params = params_of(recipe);
-    if (!glsl::gn_fake_has_size(input.light().shape) && params.least == 0) {
-        return resolve_with(input, recipe, hard, views, map);
-    }
     if (!floods(recipe)) {
         return add_resolve(input, recipe, views, map);
     }
-    return add_fake_flood(input, params, resolve_with(input, recipe, shadows, views, map).image);
+    return add_fake_flood(input, params_of(recipe), resolve_with(input, recipe, shadows, views, map).image);
 }
 
 ParamTable rows() {

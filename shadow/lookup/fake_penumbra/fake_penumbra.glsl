@@ -15,7 +15,6 @@
 // One of these is run:
 //   #define GN_FAKE_SEARCH
 //   #define GN_FAKE_WIDTHS
-//   #define GN_FAKE_HARD
 //   #define GN_FAKE_SHADOWS
 
 // The texel of a place on the map, and what it holds.
@@ -113,11 +112,14 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
                                   GnFakePenumbraParams params) {
     GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssTap own = gn_fake_tap(at, depth, axis, gn_fake_texel(at));
+    if (!gn_fake_spreads(at.light, params)) {
+        return own.lit ? 1.0 : 0.0;
+    }
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, true);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
-    GnPcssTap own = gn_fake_tap(at, depth, axis, gn_fake_texel(at));
     vec2 widest_ts = gn_pcss_reach(at, half_light, region.spread);
     float most = max(max(widest_ts.x, widest_ts.y) / at.projected.texel_ts, params.least);
     int radius = int(ceil(min(most, float(params.radius)))) + 1;
@@ -141,8 +143,8 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
     ivec2 texel = gn_fake_texel(at);
     GnPcssTap own = gn_fake_tap(at, depth, axis, texel);
-    if (own.lit) {
-        return 1.0;
+    if (own.lit || !gn_fake_spreads(at.light, params)) {
+        return own.lit ? 1.0 : 0.0;
     }
     vec2 away = gn_map_texel(steps, at, texel).xy;
     ivec2 end = texel + ivec2(away);
@@ -159,11 +161,6 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     float spread = gn_pcss_spread_at(at, receiver, own.distance);
     // The whole width lies inside.
     return gn_fake_ramp(axes.square, 1.0 - 2.0 * gn_fake_distance(length(way), reach, 2.0 * spread, params.least, float(params.radius)));
-}
-#elif defined(GN_FAKE_HARD)
-float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
-                                  GnFakePenumbraParams params) {
-    return gn_fake_tap(at, depth, gn_pcss_axis(at.light, at.receiver.p_ws), gn_fake_texel(at)).lit ? 1.0 : 0.0;
 }
 #elif defined(GN_FAKE_SHADOWS)
 // 1 in shadow, and what hides the light there lies so many metres before the receiver, packed.

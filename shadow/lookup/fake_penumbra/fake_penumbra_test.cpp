@@ -141,7 +141,7 @@ TEST(FakePenumbraRendered, AWidthMapsRampLiesInsideTheHardShadow) {
     const test::ComparisonOptions size{.width = 128, .height = 96, .samples = 1};
     const auto c = test::compare(
         "half-plane", "fake-penumbra,resolution=256,fake-penumbra.form=width-map,fake-penumbra.radius=128", size);
-    EXPECT_EQ(off_ramp(c, -1, 0, texel_of(256)), 0);
+    EXPECT_EQ(off_ramp(c, -1, 0, 1.5 * texel_of(256)), 0);
 }
 
 /// A radius of n texels leaves 2 n of the ramp, and n of the width map's.

@@ -51,9 +51,8 @@ ParamTable rows() {
                   "which are exact and four times as dear to read; or mips, which are blocky.",
                   "n-buffers", "sums", "mips"),
         GN_PARAM(GnOcclusionTexturesParams, cells, integer, 1, 8, "",
-                 "Cells along the light's sides, each a rectangle of the map: one suffices for a rectangular light "
-                 "along the map's "
-                 "axes, discs and turned ones take the shape of their cells; cost grows with the square."),
+                 "Cells along the light's sides, each a rectangle of the map: discs, and rectangles that the map sees "
+                 "askew, take the shape of their cells; cost grows with the square."),
         GN_CHOICE(GnOcclusionTexturesParams, fusion,
                   "What slices hide together: the sum of what each hides, the greatest, the middle of these two, "
                   "between which "
