@@ -4,7 +4,7 @@
 #     make demo    compares the shipped recipes on the courtyard and writes a report to look at
 #     make test    builds and runs every test; the last line is the count
 #
-# make measure runs what is too long for either, in some hours: mutants, sweeps over scales, tables, ratios, pictures.
+# make measure runs what is too long for either, in some hours: mutants, sweeps, all with sanitizers, tables, pictures.
 # The others: build, debug, bench, install, bundle, pictures, docs, format, tidy, clean.
 .DEFAULT_GOAL := build
 .PHONY: packages build debug demo test measure bench install bundle pictures docs format tidy clean
@@ -35,9 +35,9 @@ demo: build
 test: packages
 	@rm -f build/count.txt
 	@cmake --preset release --log-level=WARNING
-	@cmake --build $(RELEASE) -j $(JOBS)
+	@cmake --build $(RELEASE) -j $(JOBS) --target tested
 	@cmake --preset asan --log-level=WARNING
-	@cmake --build build/asan -j $(JOBS)
+	@cmake --build build/asan -j $(JOBS) --target tested
 	@tools/run_tests --build $(RELEASE) --build build/asan --layout --format --tidy --embed --report --bundle --slowest 20 \
 	    --count build/count.txt
 

@@ -1,33 +1,49 @@
 # SPDX-License-Identifier: MIT
 # One executable a suite: a process starts once, the driver's compiled shaders are shared. Every suite is also a line of
-# suites.txt in the build folder, which is what tools/run_tests reads.
+# suites.txt in the build folder, which is what tools/run_tests reads: its name, where it is tested and its program.
+#
+# Where an optimised and a sanitized build are both tested, what reads bytes is tested in the sanitized one alone. The target
+# `tested` is what a build needs for that.
 enable_testing()
 set(gn_suites "")
+add_custom_target(tested)
+if(GNOMON_SANITIZE)
+  set(gn_tested_here sanitized)
+else()
+  set(gn_tested_here optimised)
+endif()
 
-# gn_suite(name SOURCES ... LINK ... [PRECOMPILED kind]): nothing when there are no sources.
+# gn_suite(name SOURCES ... LINK ... [TESTED optimised|sanitized] [PRECOMPILED kind]): nothing when there are no sources;
+# without TESTED it is tested in both.
 function(gn_suite name)
-  cmake_parse_arguments(arg "" "PRECOMPILED" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "PRECOMPILED;TESTED" "SOURCES;LINK" ${ARGN})
   if(NOT arg_SOURCES)
     return()
   endif()
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LINK} gn_printers gn_options GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${arg_LINK} gn_printers gn_suite_options GTest::gtest_main)
   # Reading an absent figure ends the suite, it does not compare rubbish.
   target_compile_definitions(${name} PRIVATE _GLIBCXX_ASSERTIONS)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a fifth less to compile, nothing slower to run
   if(NOT arg_PRECOMPILED)
     set(arg_PRECOMPILED SUITE)
   endif()
   gn_precompiled(${name} ${arg_PRECOMPILED})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 900 ENVIRONMENT "${gn_test_environment}")
-  set(gn_suites "${gn_suites}${name} $<TARGET_FILE:${name}>\n" PARENT_SCOPE)
+  if(NOT arg_TESTED)
+    set(arg_TESTED everywhere)
+  endif()
+  if(arg_TESTED MATCHES "^(everywhere|${gn_tested_here})$")
+    add_dependencies(tested ${name})
+  endif()
+  set(gn_suites "${gn_suites}${name} ${arg_TESTED} $<TARGET_FILE:${name}>\n" PARENT_SCOPE)
 endfunction()
 
 set(gn_test_environment
     MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/../test-caches/driver
     GNOMON_CACHE=${CMAKE_BINARY_DIR}/../test-caches/gnomon
     GALLIVM_PERF=nopt
+    LP_NATIVE_VECTOR_WIDTH=128
     ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1
     LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0
     UBSAN_OPTIONS=print_stacktrace=1)
@@ -37,12 +53,15 @@ target_link_libraries(gn_printers PRIVATE gn_options GTest::gtest)
 target_include_directories(gn_printers PRIVATE ${CMAKE_SOURCE_DIR})
 
 file(GLOB base_tests CONFIGURE_DEPENDS base/*_test.cpp)
-gn_suite(base_tests SOURCES ${base_tests} LINK gn_images)
+gn_suite(base_tests SOURCES ${base_tests} LINK gn_images TESTED sanitized)
 file(GLOB gpu_tests CONFIGURE_DEPENDS gpu/*_test.cpp)
-gn_suite(gpu_tests SOURCES ${gpu_tests} LINK gn_compiler)
-file(GLOB_RECURSE scene_tests CONFIGURE_DEPENDS shadow/scene/*_test.cpp scenes/*_test.cpp)
-gn_suite(scene_tests SOURCES ${scene_tests} LINK gn_scene)
-file(GLOB reference_tests CONFIGURE_DEPENDS reference/*_test.cpp)
+gn_suite(gpu_tests SOURCES ${gpu_tests} LINK gn_compiler TESTED sanitized)
+file(GLOB_RECURSE scene_tests CONFIGURE_DEPENDS shadow/scene/*_test.cpp)
+if(GNOMON_SANITIZE AND NOT GNOMON_SANITIZE_ALL)
+  list(APPEND scene_tests ${CMAKE_SOURCE_DIR}/tests/real_scenes_test.cpp)  # the largest of which only the optimised build loads
+endif()
+gn_suite(scene_tests SOURCES ${scene_tests} LINK gn_scene TESTED sanitized)
+file(GLOB reference_tests CONFIGURE_DEPENDS reference/*_test.cpp scenes/*_test.cpp)
 gn_suite(reference_tests SOURCES ${reference_tests} LINK gn_reference)
 file(GLOB metrics_tests CONFIGURE_DEPENDS shadow/metrics/*_test.cpp)
 gn_suite(metrics_tests SOURCES ${metrics_tests} LINK gn_metrics)
@@ -50,12 +69,12 @@ gn_suite(metrics_tests SOURCES ${metrics_tests} LINK gn_metrics)
 file(GLOB rig_sources CONFIGURE_DEPENDS tests/*.cpp)
 list(FILTER rig_sources EXCLUDE REGEX "_test\\.cpp$|printers\\.cpp$")
 add_library(gn_rig STATIC ${rig_sources})
-target_link_libraries(gn_rig PUBLIC gn_shadow gn_reference gn_metrics GTest::gtest PRIVATE gn_options)
+target_link_libraries(gn_rig PUBLIC gn_shadow gn_reference gn_metrics GTest::gtest PRIVATE gn_suite_options)
 target_compile_definitions(gn_rig PRIVATE _GLIBCXX_ASSERTIONS)
 gn_precompiled(gn_rig FRAME_SUITE)
-# The laws of parts are figures, which sanitizers do not look at: with them one suite draws every recipe at the ends of its
-# parameters, and those of what lives over frames and beyond the boundary run whole.
-if(GNOMON_SANITIZE)
+# The laws of parts are figures, which sanitizers do not look at: with them one suite draws every recipe, and those of what
+# lives over frames and beyond the boundary run, but for three that compare what the others draw. make measure runs all.
+if(GNOMON_SANITIZE AND NOT GNOMON_SANITIZE_ALL)
   set(shadow_test_globs tests/parameter_sweep_test.cpp tests/vulkan_calls_test.cpp)
   set(tested_folders shadow/frame shadow/embed shadow/recipe shadow/geometry)
   set(part_tests "")
@@ -67,16 +86,16 @@ foreach(folder ${tested_folders})
   list(APPEND shadow_test_globs ${folder}/*_test.cpp)
 endforeach()
 file(GLOB shadow_tests CONFIGURE_DEPENDS ${shadow_test_globs})
+if(GNOMON_SANITIZE AND NOT GNOMON_SANITIZE_ALL)
+  list(FILTER shadow_tests EXCLUDE REGEX "/(baked|drawn|features)_test\\.cpp$")
+endif()
 gn_suite(part_tests SOURCES ${shadow_tests} ${part_tests} LINK gn_rig PRECOMPILED FRAME_SUITE)
 # The command is tested from outside, so that the suite of one build tests the commands of all (tools/run_tests).
-if(NOT GNOMON_SANITIZE)
-  file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
-endif()
-gn_suite(app_tests SOURCES ${app_tests} LINK gn_images)
-if(TARGET app_tests)
-  add_dependencies(app_tests gnomon)
-  target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
-endif()
+file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
+gn_suite(app_tests SOURCES ${app_tests} LINK gn_images TESTED optimised)
+add_dependencies(app_tests gnomon)
+add_dependencies(tested gnomon)
+target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
 file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/suites.txt CONTENT "${gn_suites}")
 
 add_test(NAME layout_tests COMMAND python3 ${CMAKE_SOURCE_DIR}/tests/layout_test.py)
