@@ -30,8 +30,15 @@ std::vector<std::string> drawn_recipes() {
 }
 
 std::string with_few_points(const Recipe& recipe, const std::string& text) {
-    const bool has_many = recipe.light != nullptr && recipe.light->id == "accumulate" && !thorough();
-    return text + (has_many ? ",accumulate.lights=4" : "");
+    std::string few = text;
+    for (const Part* part : recipe.parts()) {
+        if (!thorough() && part->params.find("lights") != nullptr) {
+            few += fmt::format(",{}.lights=4", part->id);
+        } else if (!thorough() && part->add_light != nullptr && part->params.find("levels") != nullptr) {
+            few += fmt::format(",{}.levels=1", part->id);
+        }
+    }
+    return few;
 }
 
 Comparison::Comparison(Scene given) : scene(std::move(given)) {}

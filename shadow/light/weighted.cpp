@@ -201,8 +201,15 @@ void add_one(const FrameInput& one, const Recipe& recipe, const Turn& turn, Text
 
 Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
                         const std::function<Visibility(const FrameInput&)>& serve) {
+    return recipe.light->add_light != nullptr
+               ? recipe.light->add_light(input, recipe, serve)
+               : add_weighted(input, recipe, recipe.light->split(input.light(), recipe), serve);
+}
+
+Visibility add_weighted(const FrameInput& input, const Recipe& recipe, std::vector<Light> given,
+                        const std::function<Visibility(const FrameInput&)>& serve, const WatchLight& watch) {
     FrameGraph& graph = input.graph;
-    const auto lights = std::make_shared<const std::vector<Light>>(recipe.light->split(input.light(), recipe));
+    const auto lights = std::make_shared<const std::vector<Light>>(std::move(given));
     GN_CHECK(!lights->empty());
     const auto turn_of = [&, count = static_cast<int>(lights->size())](int index) {
         const auto lattice = [&](int i) {
@@ -241,6 +248,9 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
                                  .height = input.samples.height});
         }
         add_one(one, recipe, turn, served.image, sums);
+        if (watch) {
+            watch(one, turn.index, served);
+        }
     }
     rounds.end();
 

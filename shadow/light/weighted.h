@@ -15,4 +15,9 @@ namespace gn {
 Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
                         const std::function<Visibility(const FrameInput&)>& serve);
 
+/// The same of these lights. `watch`, where there is one, may add passes that look at the V of each, by its index.
+using WatchLight = std::function<void(const FrameInput& one, int index, const Visibility& visibility)>;
+Visibility add_weighted(const FrameInput& input, const Recipe& recipe, std::vector<Light> given,
+                        const std::function<Visibility(const FrameInput&)>& serve, const WatchLight& watch = {});
+
 }  // namespace gn

@@ -101,6 +101,9 @@ class Part {
     // Exactly one of these is set, by stage.
     /// What serves a light in the stages behind: points or pieces of it, whose V are summed by weight. At least one.
     std::vector<Light> (*split)(const Light&, const Recipe&) = nullptr;
+    /// The same where what serves a light depends on what earlier frames saw: V, by add_weighted, of the lights that it chooses.
+    Visibility (*add_light)(const FrameInput&, const Recipe&,
+                            const std::function<Visibility(const FrameInput&)>& serve) = nullptr;
     /// The pixels whose V light `index` of `count` is for, with weight 0 elsewhere; null: all. Lights of the same pixels follow
     /// each other.
     PixelLattice (*pixels)(int index, int count, const Recipe&) = nullptr;

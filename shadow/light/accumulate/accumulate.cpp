@@ -9,13 +9,22 @@
 #include "shadow/recipe/recipe.h"
 #include "shadow/scene/light_samples.h"
 
+#include <cmath>
+
 namespace gn {
 namespace {
+
+/// Of more points than this a light is not summed.
+constexpr int most_lights = 1024;
+
+int points_of(const GnAccumulateParams& params) {
+    return params.error > 0 ? points_within(params.error) : params.lights;
+}
 
 std::vector<Light> split(const Light& light, const Recipe& recipe) {
     const auto params = recipe.of<GnAccumulateParams>("accumulate");
     std::vector<Light> lights;
-    for (const GnLight& point : light_samples(light.shape, params.lights, params.share).points) {
+    for (const GnLight& point : light_samples(light.shape, points_of(params), params.share).points) {
         lights.push_back({.name = light.name, .shape = point, .spared = light.spared});
     }
     return lights;
@@ -32,10 +41,18 @@ PixelLattice pixels(int index, int count, const Recipe& recipe) {
 
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
     const auto params = recipe.of<GnAccumulateParams>("accumulate");
-    if (params.share * params.share > params.lights) {
+    const int count = points_of(params);
+    if (count > most_lights) {
         return fmt::format(
-            "light 'accumulate' cannot share {} lights among {} x {} pixels; accumulate.share is at most {}",
-            params.lights, params.share, params.share, static_cast<int>(std::sqrt(static_cast<float>(params.lights))));
+            "light 'accumulate' would need {} lights to err by no more than {:.3g}; accumulate.error is at least "
+            "{:.3g}, "
+            "or 0 to take accumulate.lights",
+            count, params.error, 63.0 / most_lights);
+    }
+    if (params.share * params.share > count) {
+        return fmt::format(
+            "light 'accumulate' cannot share {} lights among {} x {} pixels; accumulate.share is at most {}", count,
+            params.share, params.share, static_cast<int>(std::sqrt(static_cast<float>(count))));
     }
     if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->from_centre &&
         light.shape.kind == GN_LIGHT_SPOT) {
@@ -49,6 +66,15 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 
 }  // namespace
 
+int points_within(float error) {
+    GN_CHECK(error > 0);
+    int side = 1;
+    while (static_cast<float>(2 * side - 1) > error * static_cast<float>(side * side) && side < 4096) {
+        side *= 2;
+    }
+    return side * side;
+}
+
 namespace parts {
 
 const Part& light_accumulate() {
@@ -59,12 +85,15 @@ const Part& light_accumulate() {
         p.title = "Soft shadows summed from the hard shadows of points of the light";
         p.citation = "HA90";
         p.params = param_table<GnAccumulateParams>({
-            GN_PARAM(GnAccumulateParams, lights, integer, 1, 1024, "",
+            GN_PARAM(GnAccumulateParams, lights, integer, 1, most_lights, "",
                      "Finer steps in penumbrae, cost grows in proportion; memory does not."),
             GN_PARAM(
                 GnAccumulateParams, share, integer, 1, 8, "pixels",
                 "Side of the square of pixels that share the points out: fewer lookups, and noise for a filter of V "
                 "instead of steps."),
+            GN_PARAM(GnAccumulateParams, error, real, 0, 1, "",
+                     "Most that V may err by along a straight edge: takes as many points as that needs instead of "
+                     "`lights`; 0 takes these."),
         });
         p.params_type = "GnAccumulateParams";
         p.glsl = "shadow/light/accumulate/accumulate.glsl";

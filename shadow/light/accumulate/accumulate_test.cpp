@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The sum of the shadows of a light's points is what rays to the same points say.
+#include "shadow/light/accumulate/accumulate.h"
+
 #include "scenes/analytic.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/scene/light_samples.h"
 #include "shadow/show/show.h"
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
+
+#include <random>
 
 namespace gn {
 namespace {
@@ -191,6 +195,50 @@ TEST(Accumulate, MapsOfThePointsAreTheTracedPointsToHalfATexel) {
     }
 }
 
+TEST(Accumulate, AnErrorTakesTheFewestPointsThatHoldIt) {
+    // A straight edge crosses at most 2 * 2^k - 1 of 2^k x 2^k cells: 1, 3/4, 7/16, 15/64, 31/256.
+    EXPECT_EQ(points_within(1), 1);
+    EXPECT_EQ(points_within(0.75F), 4);
+    EXPECT_EQ(points_within(0.74F), 16);
+    EXPECT_EQ(points_within(0.25F), 64);
+    EXPECT_EQ(points_within(0.125F), 256);
+}
+
+TEST(Accumulate, BehindAStraightEdgeVErrsByNoMoreThanAsked) {
+    // Planes through the receiver, as any straight edge and the receiver span one: V is what lies on one side of it. Of
+    // rectangles the bound is a theorem; the square's map to discs, cones and spheres bends lines, and leaves room for it.
+    const vec3 p_ws(0.3F, 0, 0.1F);
+    for (const GnLight& light : area_lights()) {
+        SCOPED_TRACE(light_kind_names.at(light.kind));
+        const std::vector<GnLight> many = light_samples(light, 1 << 14).points;
+        const auto towards = [&](const GnLight& point) { return gn_to_light(point, p_ws); };
+        const auto seen = [&](std::span<const GnLight> points, vec3 plane) {
+            double v = 0, weights = 0;
+            for (const GnLight& point : points) {
+                const double weight = gn_point_weight(light, point, p_ws);
+                weights += weight;
+                v += dot(towards(point), plane) > 0 ? weight : 0;
+            }
+            return v / weights;
+        };
+        std::mt19937 random(7);
+        std::normal_distribution<float> normal;
+        const auto direction = [&] { return normalize(vec3(normal(random), normal(random), normal(random))); };
+        for (const float error : {0.75F, 0.25F, 0.13F}) {
+            const std::vector<GnLight> few = light_samples(light, points_within(error)).points;
+            double worst = 0;
+            for (int i = 0; i < 60; ++i) {
+                // Through a point of the light, so that it parts the light.
+                const vec3 through = towards(many[static_cast<std::size_t>(i) * 97]);
+                const vec3 plane = normalize(cross(through, direction()));
+                worst = std::max(worst, std::abs(seen(few, plane) - seen(many, plane)));
+            }
+            EXPECT_LE(worst, static_cast<double>(error)) << points_within(error) << " points";
+            EXPECT_GT(worst, 0.05 * static_cast<double>(error)) << points_within(error) << " points";
+        }
+    }
+}
+
 TEST(Accumulate, PointsBelowTheHorizonLightNothing) {
     // Half of an upright panel is under the floor: a map's bias would let its points through.
     GnLight panel = by_hand::rectangle({-4, 0, 0}, {0, 0, 0});
@@ -292,6 +340,9 @@ TEST(Accumulate, WhatCannotBeIsRefusedByName) {
     EXPECT_NE(refused(area_lights()[0], "hard,light=accumulate,accumulate.lights=8,accumulate.share=3")
                   .find("accumulate.share is at most 2"),
               std::string::npos);
+    EXPECT_NE(refused(area_lights()[0], "hard,light=accumulate,accumulate.error=0.01").find("at least 0.0615"),
+              std::string::npos);
+    EXPECT_EQ(refused(area_lights()[0], "hard,light=accumulate,accumulate.error=0.75"), "");
 }
 
 }  // namespace
