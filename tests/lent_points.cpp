@@ -31,8 +31,7 @@ std::vector<float> visibility_at(const Scene& scene, const std::string& recipe, 
     const PreparedRecipe prepared(device(), load_recipe(recipe));
     FrameGraph graph(device());
     const FrameCasters casters{scene, import_scene(graph, gpu)};
-    const ViewSamples receivers =
-        lent_samples(graph, scene.camera(""), graph.import(position), graph.import(normal));
+    const ViewSamples receivers = lent_samples(graph, scene.camera(""), graph.import(position), graph.import(normal));
     const std::vector<FrameLight> lights = lights_of(scene);
     std::set<std::string> said;
     const std::vector<LightShadow> shadows =

@@ -20,9 +20,16 @@ struct GnTexelBox {
 // Texels along a side of the largest box.
 const float gn_widest_box = 8.0f;
 
-// The box of this half extent in ts, at least half a texel and at most four, without what lies beyond the view.
-GN_FN GnTexelBox gn_texel_box(GnProjected projected, vec2 half_ts) {
-    vec2 at = projected.uv_ts / projected.texel_ts;
+// Where a point is seen, in ts: a receiver before any bias moves it.
+GN_FN vec2 gn_seen_at(GnLightView view, vec3 p_ws) {
+    vec4 p_cs = gn_clip(view, p_ws);
+    vec2 p_ndc = gn_bent(view) ? gn_paraboloid(vec3(p_cs)) / view.paraboloid : vec2(p_cs.x, p_cs.y) / p_cs.w;
+    return vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
+}
+
+// The box of this half extent around a place in ts, at least half a texel and at most four, without what lies beyond the view.
+GN_FN GnTexelBox gn_texel_box(GnProjected projected, vec2 uv_ts, vec2 half_ts) {
+    vec2 at = uv_ts / projected.texel_ts;
     vec2 reach = clamp(half_ts / projected.texel_ts, vec2(0.5f), vec2(0.5f * gn_widest_box));
     vec2 first = vec2(projected.bounds_ts.x, projected.bounds_ts.y) / projected.texel_ts;
     vec2 end = vec2(projected.bounds_ts.z, projected.bounds_ts.w) / projected.texel_ts;

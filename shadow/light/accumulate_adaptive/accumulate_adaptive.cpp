@@ -204,11 +204,13 @@ const Part& light_accumulate_adaptive() {
         p.params = param_table<GnAccumulateAdaptiveParams>({
             GN_PARAM(GnAccumulateAdaptiveParams, levels, integer, 1, most_tree_levels, "",
                      "How often parts of the light may be quartered: 4^levels points at most."),
-            GN_PARAM(GnAccumulateAdaptiveParams, start, integer, 1, most_tree_levels, "",
-                     "How often all of it is quartered in a sequence's first frame; later ones go a level further each."),
-            GN_PARAM(GnAccumulateAdaptiveParams, threshold, real, 0, 1, "of the pixels",
-                     "Share of the picture's pixels whose V the quarters of a part must disagree about before these are "
-                     "quartered: fewer maps, coarser steps; 0 quarters all."),
+            GN_PARAM(
+                GnAccumulateAdaptiveParams, start, integer, 1, most_tree_levels, "",
+                "How often all of it is quartered in a sequence's first frame; later ones go a level further each."),
+            GN_PARAM(
+                GnAccumulateAdaptiveParams, threshold, real, 0, 1, "of the pixels",
+                "Share of the picture's pixels whose V the quarters of a part must disagree about before these are "
+                "quartered: fewer maps, coarser steps; 0 quarters all."),
         });
         p.params_type = "GnAccumulateAdaptiveParams";
         p.glsl = "shadow/light/accumulate_adaptive/accumulate_adaptive.glsl";

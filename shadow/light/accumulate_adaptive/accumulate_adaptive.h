@@ -6,9 +6,9 @@
 #include "base/shared.h"
 
 struct GnAccumulateAdaptiveParams {
-    int levels GN_DEFAULT(4);             ///< the finest cells are 4^levels
-    int start GN_DEFAULT(1);              ///< levels of a sequence's first frame
-    float threshold GN_DEFAULT(0.002f);   ///< share of the picture's pixels
+    int levels GN_DEFAULT(4);            ///< the finest cells are 4^levels
+    int start GN_DEFAULT(1);             ///< levels of a sequence's first frame
+    float threshold GN_DEFAULT(0.002f);  ///< share of the picture's pixels
 };
 
 #endif

@@ -24,8 +24,8 @@ Scene scene_under(float half_size) {
 }
 
 struct Sequence {
-    std::vector<float> v;                ///< of the last frame
-    std::vector<std::size_t> shadows;    ///< that each frame drew
+    std::vector<float> v;              ///< of the last frame
+    std::vector<std::size_t> shadows;  ///< that each frame drew
 };
 
 /// Frames of a still camera.
@@ -36,15 +36,17 @@ Sequence draw(const Scene& scene, const std::string& recipe, int frames) {
     History history(test::device());
     Sequence sequence;
     for (int i = 0; i < frames; ++i) {
-        const FrameResult frame =
-            render_frame(gpu, scene.camera(""), prepared,
-                         {.width = width, .height = height, .only_light = 0, .picture = false,
-                          .history = frames > 1 ? &history : nullptr});
+        const FrameResult frame = render_frame(gpu, scene.camera(""), prepared,
+                                               {.width = width,
+                                                .height = height,
+                                                .only_light = 0,
+                                                .picture = false,
+                                                .history = frames > 1 ? &history : nullptr});
         EXPECT_EQ(frame.refused.front(), "");
         sequence.v = frame.visibility.front().values;
-        sequence.shadows.push_back(static_cast<std::size_t>(
-            std::count_if(frame.statistics.passes.begin(), frame.statistics.passes.end(),
-                          [](const PassTime& pass) { return pass.name == "light: add"; })));
+        sequence.shadows.push_back(
+            static_cast<std::size_t>(std::count_if(frame.statistics.passes.begin(), frame.statistics.passes.end(),
+                                                   [](const PassTime& pass) { return pass.name == "light: add"; })));
     }
     return sequence;
 }
@@ -52,8 +54,9 @@ Sequence draw(const Scene& scene, const std::string& recipe, int frames) {
 constexpr const char* maps = ",resolution=128";
 
 std::string adaptive(float threshold, int levels = 3) {
-    return fmt::format("hard,light=accumulate-adaptive,accumulate-adaptive.levels={},accumulate-adaptive.threshold={}{}",
-                       levels, threshold, maps);
+    return fmt::format(
+        "hard,light=accumulate-adaptive,accumulate-adaptive.levels={},accumulate-adaptive.threshold={}{}", levels,
+        threshold, maps);
 }
 
 double difference(const std::vector<float>& a, const std::vector<float>& b) {
@@ -111,7 +114,7 @@ TEST(LightTree, EachDividedCellHearsItsFourPartsOnce) {
     for (const TreeLeaf& leaf : leaves_of(tree)) {
         for (std::size_t level = 0; level < leaf.parents.size(); ++level) {
             if ((leaf.speaks >> level & 1U) != 0) {
-                heard[leaf.parents[level]].push_back((leaf.first >> level & 1U) != 0   ? 'f'
+                heard[leaf.parents[level]].push_back((leaf.first >> level & 1U) != 0  ? 'f'
                                                      : (leaf.last >> level & 1U) != 0 ? 'l'
                                                                                       : '-');
             }
@@ -135,7 +138,8 @@ TEST(AccumulateAdaptive, WithoutAThresholdItIsTheWholeGrid) {
 
 TEST(AccumulateAdaptive, NarrowPenumbraeTakeFewerShadowsThanWideOnes) {
     // Once the tree stands still, after as many frames as it has levels.
-    const Sequence narrow = draw(scene_under(0.03F), adaptive(0.01F), 4), wide = draw(scene_under(1), adaptive(0.01F), 4);
+    const Sequence narrow = draw(scene_under(0.03F), adaptive(0.01F), 4),
+                   wide = draw(scene_under(1), adaptive(0.01F), 4);
     EXPECT_LE(narrow.shadows.back(), 16U);
     EXPECT_GE(wide.shadows.back(), 40U);
     EXPECT_LT(difference(narrow.v, draw(scene_under(0.03F), adaptive(0), 4).v), 0.02);

@@ -22,11 +22,8 @@ constexpr const char* part_include = "#include \"shadow/map/layered_attenuation/
 
 TextureHandle create(const FrameInput& input, const LightViews& views, const char* name, VkFormat format,
                      std::uint32_t layers) {
-    return input.graph.create({.name = name,
-                               .format = format,
-                               .width = views.resolution,
-                               .height = views.resolution,
-                               .layers = layers});
+    return input.graph.create(
+        {.name = name, .format = format, .width = views.resolution, .height = views.resolution, .layers = layers});
 }
 
 /// One surface under every texel: RGBA32F (depth, normal), and the depths by which it was found.
@@ -47,7 +44,8 @@ Surfaces add_surfaces(const FrameInput& input, const Recipe& recipe, const Light
     pass.color = create(input, views, "surfaces", VK_FORMAT_R32G32B32A32_SFLOAT, views.layers);
     pass.depth = create(input, views, "surface depths", VK_FORMAT_D32_SFLOAT, views.layers);
     pass.clear_color = {.color = vec4(1, 0, 0, 0)};
-    pass.fragment.includes = std::string(part_include) + "layout(location = 0) out vec4 out_surface;\n";
+    pass.fragment.includes = part_include;
+    pass.fragment.includes += "layout(location = 0) out vec4 out_surface;\n";
     pass.fragment.reads_slope = true;
     if (before.valid()) {
         pass.fragment.inputs.texture("sampler2DArray", "surfaces_before", before);
@@ -119,8 +117,8 @@ void add_count(const PointMap& point, const Recipe& recipe, const LightViews& vi
     const std::string includes = point_includes(point, recipe, views), functions = point_functions(point, recipe);
     const auto shader =
         compute_once(point.input.prepared, "layers: count", hashed(inputs).text(includes).text(functions), [&] {
-            return includes + part_include + "#include \"shadow/scene/light_samples.h\"\n" + inputs.text() +
-                   functions + begin_text + count_text;
+            return includes + part_include + "#include \"shadow/scene/light_samples.h\"\n" + inputs.text() + functions +
+                   begin_text + count_text;
         });
     add_texel_pass(point.input, "layers: count", views, inputs, shader);
 }
@@ -204,8 +202,7 @@ ShadowMap add_layers(const FrameInput& input, const Recipe& recipe, const LightV
     // Peel what can receive under the light's centre.
     std::vector<TextureHandle> surfaces, sums;
     for (int i = 0; i < params.layers; ++i) {
-        surfaces.push_back(
-            add_surfaces(input, recipe, views, i == 0 ? TextureHandle{} : surfaces.back()).surface);
+        surfaces.push_back(add_surfaces(input, recipe, views, i == 0 ? TextureHandle{} : surfaces.back()).surface);
         sums.push_back(create(input, views, "layer sums", VK_FORMAT_R32G32_SFLOAT, views.layers));
     }
     add_left_out(input, recipe, views, surfaces.back(), params.layers);
@@ -217,9 +214,8 @@ ShadowMap add_layers(const FrameInput& input, const Recipe& recipe, const LightV
         }
     });
 
-    const TextureHandle layers =
-        create(input, views, "attenuation layers", VK_FORMAT_R32G32_SFLOAT,
-               views.layers * static_cast<std::uint32_t>(params.layers));
+    const TextureHandle layers = create(input, views, "attenuation layers", VK_FORMAT_R32G32_SFLOAT,
+                                        views.layers * static_cast<std::uint32_t>(params.layers));
     for (int i = 0; i < params.layers; ++i) {
         const auto at = static_cast<std::size_t>(i);
         add_mean(input, surfaces[at], sums[at], layers, i, params.layers);

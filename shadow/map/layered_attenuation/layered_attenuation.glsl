@@ -59,14 +59,15 @@ vec2 gn_layer_visibility(GnLookup at, sampler2DArray layers, ivec2 texel, GnLaye
 // behind the last layer, the nearest layer decides alone.
 float gn_layered_attenuation_visibility(GnLookup at, sampler2DArray layers, vec2 ddx_ts, vec2 ddy_ts,
                                         GnLayeredAttenuationParams params) {
-    GnTexelBox box = gn_texel_box(at.projected, 0.5 * (abs(ddx_ts) + abs(ddy_ts)));
+    GnTexelBox box = gn_texel_box(at.projected, gn_seen_at(at.view, at.receiver.p_ws), 0.5 * (abs(ddx_ts) + abs(ddy_ts)));
     vec2 sum = vec2(0.0);
     for (int y = box.first.y; y <= box.last.y; ++y) {
         for (int x = box.first.x; x <= box.last.x; ++x) {
             sum += gn_box_weight(box, ivec2(x, y)) * gn_layer_visibility(at, layers, ivec2(x, y), params);
         }
     }
-    if (sum.y > 0.0) {
+    // Less than a thousandth of a texel is rounding.
+    if (sum.y > 1.0e-3) {
         return sum.x / sum.y;
     }
     ivec2 texel = ivec2(floor(at.projected.uv_ts / at.projected.texel_ts));

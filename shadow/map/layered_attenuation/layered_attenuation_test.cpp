@@ -52,10 +52,12 @@ std::vector<test::LentPoint> on_texels(const GnLightView& view, float height) {
 }
 
 constexpr const char* maps = ",placement=single,resolution=96";
+/// One texel, whatever pixels cover.
+constexpr const char* alone = ",filtered.footprint=radius,filtered.radius=0";
 
 TEST(LayeredAttenuation, OnTheRaysOfTexelsItIsTheSumOfItsPointsHardShadows) {
     const Scene scene = stacked(wide_sun());
-    const std::string layered = fmt::format("layered-attenuation,layered-attenuation.lights=12{}", maps);
+    const std::string layered = fmt::format("layered-attenuation,layered-attenuation.lights=12{}{}", maps, alone);
     const std::string summed = fmt::format("hard,light=accumulate,accumulate.lights=12{}", maps);
     const std::vector<test::LentPoint> points = on_texels(view_of(scene, layered), 0);
     const std::vector<float> v = test::visibility_at(scene, layered, points);
@@ -76,8 +78,8 @@ TEST(LayeredAttenuation, WhatLiesBehindTheLastLayerIsDarkAndSaysSo) {
     // Grounds in the light's own shadow are the second surface under a texel or the third.
     const Scene scene = stacked(wide_sun());
     const auto at = [&](int layers, std::set<std::string>& remarks) {
-        const std::string recipe =
-            fmt::format("layered-attenuation,layered-attenuation.lights=4,layered-attenuation.layers={}{}", layers, maps);
+        const std::string recipe = fmt::format(
+            "layered-attenuation,layered-attenuation.lights=4,layered-attenuation.layers={}{}{}", layers, maps, alone);
         return test::visibility_at(scene, recipe, on_texels(view_of(scene, recipe), 0), &remarks);
     };
     std::set<std::string> none, some;
@@ -85,31 +87,34 @@ TEST(LayeredAttenuation, WhatLiesBehindTheLastLayerIsDarkAndSaysSo) {
     EXPECT_TRUE(none.empty());
     ASSERT_EQ(some.size(), 1U);
     EXPECT_NE(some.begin()->find("layered-attenuation.layers keeps more"), std::string::npos) << *some.begin();
-    std::size_t darker = 0;
+    // What finds no layer has the hard shadow of the nearest one, a border of which the bias may move a receiver past.
+    std::size_t dark = 0;
+    std::size_t other = 0;
     for (std::size_t i = 0; i < one.size(); ++i) {
-        EXPECT_TRUE(one[i] == three[i] || one[i] == 0) << i;
-        darker += one[i] != three[i] ? 1 : 0;
+        dark += one[i] != three[i] && one[i] == 0 ? 1 : 0;
+        other += one[i] != three[i] && one[i] != 0 ? 1 : 0;
     }
-    EXPECT_GT(darker, one.size() / 50);
+    EXPECT_GT(dark, one.size() / 20);
+    EXPECT_LE(other, one.size() / 50);
 }
 
 TEST(LayeredAttenuation, OfEveryKindOfLightItIsCloseToTheSum) {
     // Between texels' rays V is a mean of texels': it differs by what V changes over one.
     for (const char* light : {"directional", "rectangle", "spot", "point"}) {
         const std::string scene = fmt::format("slab:light={}", light);
-        const std::string few = ",resolution=256,";
+        const std::string few = ",resolution=128,";
         const auto layered =
             test::compare(scene, "layered-attenuation" + few + "layered-attenuation.lights=16", {64, 48, 16, ""});
-        const auto summed =
-            test::compare(scene, "hard,light=accumulate" + few + "accumulate.lights=16,placement=auto", {64, 48, 16, ""});
+        const auto summed = test::compare(scene, "hard,light=accumulate" + few + "accumulate.lights=16,placement=auto",
+                                          {64, 48, 16, ""});
         double squares = 0;
         for (std::size_t i = 0; i < summed.visibility().values.size(); ++i) {
             const double d = layered.visibility().values[i] - summed.visibility().values[i];
             squares += d * d;
         }
         // A step of a sixteenth, somewhere within the texel.
-        EXPECT_LT(std::sqrt(squares / static_cast<double>(summed.visibility().values.size())), 1.0 / 16 / 2) << light;
-        EXPECT_LT(*layered.errors.rmse, 0.05) << light;
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(summed.visibility().values.size())), 1.0 / 16) << light;
+        EXPECT_LT(*layered.errors.rmse, *summed.errors.rmse + 1.0 / 32) << light;
     }
 }
 
@@ -132,15 +137,13 @@ TEST(LayeredAttenuation, ABoxOfOneTexelIsBilinear) {
     GnProjected projected{};
     projected.texel_ts = 1 / 16.0F;
     projected.bounds_ts = vec4(0, 0, 1, 1);
-    projected.uv_ts = vec2(5.75F, 3.5F) / 16.0F;
-    const GnTexelBox box = gn_texel_box(projected, vec2(0));
+    const GnTexelBox box = gn_texel_box(projected, vec2(5.75F, 3.5F) / 16.0F, vec2(0));
     EXPECT_EQ(box.first, ivec2(5, 3));
     EXPECT_FLOAT_EQ(gn_box_weight(box, ivec2(5, 3)), 0.75F);
     EXPECT_FLOAT_EQ(gn_box_weight(box, ivec2(6, 3)), 0.25F);
     EXPECT_FLOAT_EQ(gn_box_weight(box, ivec2(5, 4)), 0);
     // No texel beyond the view, and none of a box that is wider than is read.
-    projected.uv_ts = vec2(0.2F, 15.9F) / 16.0F;
-    const GnTexelBox border = gn_texel_box(projected, vec2(1));
+    const GnTexelBox border = gn_texel_box(projected, vec2(0.2F, 15.9F) / 16.0F, vec2(1));
     EXPECT_EQ(border.first, ivec2(0, 11));
     EXPECT_EQ(border.last, ivec2(4, 15));
 }

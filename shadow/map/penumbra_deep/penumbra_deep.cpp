@@ -55,10 +55,9 @@ void add_march(const PointMap& point, const Recipe& recipe, const LightViews& vi
     const std::string includes =
         point_includes(point, recipe, views) + fmt::format("#define GN_SEVERAL {:d}\n", point.views.views.size() > 1);
     const std::string functions = point_functions(point, recipe);
-    const auto shader =
-        compute_once(point.input.prepared, "penumbra: march", hashed(inputs).text(includes).text(functions), [&] {
-            return includes + inputs.text() + functions + list_functions(ListAccess::add) + march_text;
-        });
+    const auto shader = compute_once(
+        point.input.prepared, "penumbra: march", hashed(inputs).text(includes).text(functions),
+        [&] { return includes + inputs.text() + functions + list_functions(ListAccess::add) + march_text; });
     point.input.graph.add_pass(
         "penumbra: march", [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, shader, groups = (views.resolution + 7) / 8,

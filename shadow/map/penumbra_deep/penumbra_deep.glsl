@@ -22,14 +22,18 @@ struct GnPenumbraLine {
     float least;   // slopes
     float most;
     float passed;  // the depth that it reached
+    bool level;    // all that it passed has the node's V
 };
 
-GN_FN GnPenumbraLine gn_penumbra_line(vec2 node) { return GnPenumbraLine(node, -3.0e38f, 3.0e38f, node.x); }
+// A level stretch longer than this share of the depths stays level: receivers in light and umbra have no share of epsilon.
+const float gn_penumbra_rest = 0.01f;
+
+GN_FN GnPenumbraLine gn_penumbra_line(vec2 node) { return GnPenumbraLine(node, -3.0e38f, 3.0e38f, node.x, true); }
 
 // Where the line ends if it goes no further: in the middle of what is left to it.
 GN_FN vec2 gn_penumbra_end(GnPenumbraLine line) {
-    if (line.passed <= line.node.x) {
-        return line.node;
+    if (line.passed <= line.node.x || line.level) {
+        return vec2(line.passed, line.node.y);
     }
     return vec2(line.passed, clamp(line.node.y + 0.5f * (line.least + line.most) * (line.passed - line.node.x), 0.0f, 1.0f));
 }
@@ -40,6 +44,10 @@ GN_FN bool gn_penumbra_passes(GN_INOUT(GnPenumbraLine) line, vec2 at, float epsi
     if (way <= 0.0f) {
         return abs(at.y - line.node.y) <= epsilon;
     }
+    bool level = line.level && at.y == line.node.y;
+    if (line.level && !level && line.passed - line.node.x > gn_penumbra_rest) {
+        return false;
+    }
     float least = max(line.least, (at.y - epsilon - line.node.y) / way);
     float most = min(line.most, (at.y + epsilon - line.node.y) / way);
     if (least > most) {
@@ -48,6 +56,7 @@ GN_FN bool gn_penumbra_passes(GN_INOUT(GnPenumbraLine) line, vec2 at, float epsi
     line.least = least;
     line.most = most;
     line.passed = at.x;
+    line.level = level;
     return true;
 }
 
@@ -80,7 +89,7 @@ float gn_penumbra_at(sampler2DArray functions, ivec2 texel, int first, int count
 // Mean over the footprint's texels, of each where its ray meets the receiver's plane.
 float gn_penumbra_deep_visibility(GnLookup at, sampler2DArray functions, vec2 ddx_ts, vec2 ddy_ts,
                                   GnPenumbraDeepParams params) {
-    GnTexelBox box = gn_texel_box(at.projected, 0.5 * (abs(ddx_ts) + abs(ddy_ts)));
+    GnTexelBox box = gn_texel_box(at.projected, gn_seen_at(at.view, at.receiver.p_ws), 0.5 * (abs(ddx_ts) + abs(ddy_ts)));
     float own = at.projected.depth + gn_depth_epsilon + at.projected.bias;
     float most = at.bias.slope_max * at.projected.texel_ws / at.projected.metres_per_depth;
     vec2 sum = vec2(0.0);

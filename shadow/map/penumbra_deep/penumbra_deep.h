@@ -7,7 +7,7 @@
 
 struct GnPenumbraDeepParams {
     int lights GN_DEFAULT(32);        ///< points of the light, a map each
-    int nodes GN_DEFAULT(8);          ///< of a texel's function
+    int nodes GN_DEFAULT(16);         ///< of a texel's function
     float epsilon GN_DEFAULT(0.05f);  ///< what a function's V may err by
 };
 

@@ -40,11 +40,10 @@ vec2 texel_at(GnLightView view, Ray ray, float s) {
     return (view.rect_ts.xy + (p_cs.xy / p_cs.w * 0.5 + 0.5) * view.rect_ts.zw) * view.resolution;
 }
 
-// Where the ray leaves a texel across one axis: its depth at the border that lies ahead, or 2 where none does. `border` is in
-// the view's own [-1,1].
+// Where the ray crosses a border of one axis, in the view's own [-1,1].
 float leaves_at(float from, float way, float from_w, float way_w, float border) {
     float divisor = way - border * way_w;
-    return abs(divisor) > 1.0e-20 ? (border * from_w - from) / divisor : 2.0;
+    return (border * from_w - from) / divisor;
 }
 
 void march(ivec3 list, GnLightView view, int index, vec3 near_ws, vec3 far_ws) {
@@ -60,16 +59,17 @@ void march(ivec3 list, GnLightView view, int index, vec3 near_ws, vec3 far_ws) {
     vec2 first = round(view.rect_ts.xy * view.resolution);
     vec2 size = round(view.rect_ts.zw * view.resolution);
     ivec2 low = ivec2(first), high = ivec2(first + size) - 1;
-    vec2 ahead = sign(texel_at(view, ray, part.y) - texel_at(view, ray, part.x));
     ivec2 texel = clamp(ivec2(floor(texel_at(view, ray, part.x))), low, high);
+    ivec2 last = clamp(ivec2(floor(texel_at(view, ray, part.y))), low, high);
+    vec2 ahead = vec2(sign(last - texel));
     bool hidden = false;
     float s = part.x;
     int most = int(size.x + size.y) + 4;
     for (int i = 0; i < most && s < part.y; ++i) {
-        // The way through one texel.
+        // The way through one texel: it is left across an axis until the last one is reached there.
         vec2 border = ((vec2(texel) + max(ahead, vec2(0.0)) - first) / size) * 2.0 - 1.0;
-        vec2 out_at = vec2(ahead.x == 0.0 ? 2.0 : leaves_at(ray.from_cs.x, ray.way_cs.x, ray.from_cs.w, ray.way_cs.w, border.x),
-                           ahead.y == 0.0 ? 2.0 : leaves_at(ray.from_cs.y, ray.way_cs.y, ray.from_cs.w, ray.way_cs.w, border.y));
+        vec2 out_at = vec2(texel.x == last.x ? 2.0 : leaves_at(ray.from_cs.x, ray.way_cs.x, ray.from_cs.w, ray.way_cs.w, border.x),
+                           texel.y == last.y ? 2.0 : leaves_at(ray.from_cs.y, ray.way_cs.y, ray.from_cs.w, ray.way_cs.w, border.y));
         float end = clamp(min(out_at.x, out_at.y), s, part.y);
 
         // What the point sees there hides all that lies behind it, and nothing that another view serves.
@@ -86,9 +86,6 @@ void march(ivec3 list, GnLightView view, int index, vec3 near_ws, vec3 far_ws) {
         }
         hidden = hidden_last;
         texel += ivec2(out_at.x <= out_at.y ? ahead.x : 0.0, out_at.x <= out_at.y ? 0.0 : ahead.y);
-        if (any(lessThan(texel, low)) || any(greaterThan(texel, high))) {
-            break;
-        }
         s = end;
     }
     if (hidden && part.y < 1.0) {
