@@ -115,6 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Recipes, SoftLimitsOf,
                                          Case{"occlusion-textures,resolution=64", ball},
                                          Case{"backprojection-split,resolution=64", panel},
                                          Case{"accumulate,accumulate.lights=4,resolution=128", disc},
+                                         Case{"accumulate-adaptive,accumulate-adaptive.levels=1,resolution=128", disc},
+                                         Case{"layered-attenuation,layered-attenuation.lights=4,resolution=64", disc},
                                          Case{"soft,resolution=128", panel}, Case{"soft-quality,resolution=128", ball}),
                          name_of_case);
 

@@ -8,7 +8,7 @@
 struct GnAccumulateAdaptiveParams {
     int levels GN_DEFAULT(4);            ///< the finest cells are 4^levels
     int start GN_DEFAULT(1);             ///< levels of a sequence's first frame
-    float threshold GN_DEFAULT(0.002f);  ///< share of the picture's pixels
+    float threshold GN_DEFAULT(0.005f);  ///< share of the picture's pixels
 };
 
 #endif
