@@ -38,6 +38,18 @@ float gn_point_sees(vec3 p_ws, vec3 n_ws) {
 }
 )";
 
+/// Rounds of a graph that end also where one of them refuses.
+class Rounds {
+  public:
+    explicit Rounds(FrameGraph& graph) : graph_(graph) { graph.begin_rounds(); }
+    ~Rounds() { graph_.end_rounds(); }
+    Rounds(const Rounds&) = delete;
+    Rounds& operator=(const Rounds&) = delete;
+
+  private:
+    FrameGraph& graph_;
+};
+
 /// What a point's shadow alone would be drawn and looked up with: the same views, texels and bias as a sum of hard shadows has.
 Recipe hard(const Recipe& recipe) {
     Recipe one = recipe;
@@ -56,11 +68,10 @@ void add_point_maps(const FrameInput& input, const Recipe& recipe, int count,
     }
     const Recipe one_recipe = hard(recipe);
     const Part& placement = recipe.placement_for(input.whole_light().shape);
-    FrameGraph& graph = input.graph;
-    graph.hold(points);
-    graph.begin_rounds();
+    input.graph.hold(points);
+    const Rounds rounds(input.graph);
     for (std::size_t i = 0; i < points->size(); ++i) {
-        graph.next_round();
+        input.graph.next_round();
         FrameInput one = input;
         one.source = &points->at(i);
         one.parent = &input.whole_light();
@@ -71,7 +82,6 @@ void add_point_maps(const FrameInput& input, const Recipe& recipe, int count,
         const TextureHandle depth = add_caster_depth(one, one_recipe, views).texture();
         use({one, views, depth, static_cast<int>(i), static_cast<int>(points->size())});
     }
-    graph.end_rounds();
 }
 
 std::string refuses_points(std::string_view id, const Light& light, const Recipe& recipe) {

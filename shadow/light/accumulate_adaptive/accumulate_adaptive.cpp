@@ -105,9 +105,6 @@ std::vector<Light> lights_of(const Light& light, const std::vector<TreeLeaf>& le
 /// Lets the V of one leaf speak for the cells that its point stands for.
 void add_watch(const FrameInput& one, const Watched& watched, int index, TextureHandle visibility) {
     const TreeLeaf& leaf = watched.leaves.at(static_cast<std::size_t>(index));
-    if (leaf.speaks == 0) {
-        return;
-    }
     std::array<std::uint32_t, most_tree_levels> parents{};
     std::copy(leaf.parents.begin(), leaf.parents.end(), parents.begin());
     ShaderInputs inputs;
