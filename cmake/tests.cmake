@@ -40,7 +40,7 @@ function(gn_suite name)
 endfunction()
 
 set(gn_test_environment
-    MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/../test-caches/driver
+    MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/../test-caches/driver-128
     GNOMON_CACHE=${CMAKE_BINARY_DIR}/../test-caches/gnomon
     GALLIVM_PERF=nopt
     LP_NATIVE_VECTOR_WIDTH=128

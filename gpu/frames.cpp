@@ -141,6 +141,9 @@ void Frames::begin(std::uint32_t slot) {
     held.waiting.clear();
     held.retired.clear();
     held.arena.reset();
+    for (const std::unique_ptr<Slot>& other : impl_->slots) {
+        held.arena.match(other->arena);
+    }
     impl_->retire_unused();
 }
 

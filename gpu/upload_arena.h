@@ -26,6 +26,13 @@ class UploadArena {
         used_ = 0;
     }
 
+    /// Makes the room that another arena has, so that no later frame needs to.
+    void match(const UploadArena& other) {
+        for (std::size_t i = chunks_.size(); i < other.chunks_.size(); ++i) {
+            add_chunk(other.chunks_[i].desc().bytes);
+        }
+    }
+
     UploadedBytes put(std::span<const std::byte> data) {
         const UploadedBytes result = reserve(data.size());
         if (!data.empty()) {
@@ -42,12 +49,7 @@ class UploadArena {
             used_ = 0;
         }
         if (chunk_ == chunks_.size()) {
-            chunks_.emplace_back(
-                device_, BufferDesc{.name = "uniforms",
-                                    .bytes = std::max<VkDeviceSize>(chunk_bytes, bytes),
-                                    .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                             VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                                    .host_visible = true});
+            add_chunk(std::max<VkDeviceSize>(chunk_bytes, bytes));
         }
         const Buffer& chunk = chunks_[chunk_];
         const UploadedBytes result{chunk.vk(), used_, std::max<VkDeviceSize>(bytes, 4), chunk.mapped() + used_};
@@ -56,6 +58,15 @@ class UploadArena {
     }
 
   private:
+    void add_chunk(VkDeviceSize bytes) {
+        chunks_.emplace_back(
+            device_, BufferDesc{.name = "uniforms",
+                                .bytes = bytes,
+                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                                .host_visible = true});
+    }
+
     static constexpr VkDeviceSize chunk_bytes = VkDeviceSize{256} * 1024;
     static constexpr VkDeviceSize alignment = 256;  ///< the most that Vulkan lets a device ask for
 

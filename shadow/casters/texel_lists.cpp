@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 namespace gn {
@@ -18,15 +19,21 @@ std::shared_ptr<std::uint32_t> needed_values(const FrameInput& input, const std:
                : nullptr;
 }
 
+/// Values that one storage block of the device holds.
+std::uint64_t most_values(const Device& device) {
+    const std::uint64_t held = device.properties().limits.maxStorageBufferRange / sizeof(uvec2);
+    return std::min<std::uint64_t>(held, std::numeric_limits<std::uint32_t>::max());
+}
+
 }  // namespace
 
-TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uvec3 size, std::uint32_t capacity) {
+TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uvec3 size, std::uint64_t capacity) {
     // A tenth more than the last frame needed, so that a slow change fits.
-    TexelLists lists{.size = size, .capacity = std::max(capacity, 1U)};
     const std::shared_ptr<std::uint32_t> needed = needed_values(input, name);
-    if (needed != nullptr) {
-        lists.capacity = std::max(lists.capacity, *needed + *needed / 10);
-    }
+    const std::uint64_t wanted = needed != nullptr ? std::uint64_t{*needed} + *needed / 10 : 0;
+    const std::uint64_t most = most_values(input.device);
+    TexelLists lists{.size = size};
+    lists.capacity = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::max(capacity, wanted), 1, most));
 
     FrameGraph& graph = input.graph;
     const VkDeviceSize texels = VkDeviceSize{size.x} * size.y * size.z;
@@ -45,20 +52,22 @@ TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uve
         });
 
     // What they needed comes back after the frame.
-    graph.answer(lists.used, [needed, lists, name, remarks = input.late_remarks](std::span<const std::byte> bytes) {
-        std::uint32_t used = 0;
-        std::memcpy(&used, bytes.data(), sizeof used);
-        if (needed != nullptr) {
-            *needed = used;
-        }
-        if (used > lists.capacity && remarks != nullptr) {
-            remarks->insert(fmt::format(
-                "the lists of {} have room for {} values and {} were added: {} are left out of this frame; {}", name,
-                lists.capacity, used, used - lists.capacity,
-                needed != nullptr ? "the next frame has room for them"
-                                  : "render a sequence, whose next frame has room"));
-        }
-    });
+    graph.answer(
+        lists.used, [needed, lists, name, most, remarks = input.late_remarks](std::span<const std::byte> bytes) {
+            std::uint32_t used = 0;
+            std::memcpy(&used, bytes.data(), sizeof used);
+            if (needed != nullptr) {
+                *needed = used;
+            }
+            if (used > lists.capacity && remarks != nullptr) {
+                remarks->insert(fmt::format(
+                    "the lists of {} have room for {} values and {} were added: {} are left out of this frame; {}",
+                    name, lists.capacity, used, used - lists.capacity,
+                    used > most ? "a storage block of this device holds no more; a smaller map or fewer lights fit"
+                    : needed != nullptr ? "the next frame has room for them"
+                                        : "render a sequence, whose next frame has room"));
+            }
+        });
     return lists;
 }
 

@@ -20,8 +20,9 @@ struct TexelLists {
     BufferHandle used;           ///< a uint: values that were added, those among them that had no room
 };
 /// Empty lists of one name a light. They have room for `capacity` values, or for what the last frame of the sequence would
-/// have needed where that is more. Where values have no room the frame's remarks say so, when its answer arrives.
-TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uvec3 size, std::uint32_t capacity);
+/// have needed where that is more, but for no more than one storage block of the device holds. Where values have no room the
+/// frame's remarks say so, when its answer arrives.
+TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uvec3 size, std::uint64_t capacity);
 
 /// Adds the lists to what a shader reads and writes, or only reads.
 enum class ListAccess { read, add };

@@ -42,13 +42,17 @@ TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
     constexpr std::array<std::string_view, 2> stepped{"convolution", "cssm"};
     for (const auto& [scene, placement] : placed) {
         for (const Part* map : all_parts()) {
+            if (map->id == "penumbra-deep" && placement == "paraboloid") {
+                continue;  // refused: its rays are straight
+            }
             const bool deep = placement == "cube" || placement == "single" || placement == "cascades";
             if (map->stage == Stage::map && map->filterable && !(deep && holds(stepped, map->id))) {
                 // A paraboloid spreads a hemisphere over what three faces of a cube and a half share.
                 const int resolution = placement == "paraboloid" ? 1024 : 512;
                 const std::string recipe =
                     fmt::format("vsm,map={},resolution={},placement={}", map->id, resolution, placement);
-                EXPECT_LT(light_in_the_umbra(test::compare(scene, recipe, options)), 0.05) << recipe;
+                const std::string few = test::with_few_points(load_recipe(recipe), recipe);
+                EXPECT_LT(light_in_the_umbra(test::compare(scene, few, options)), 0.05) << few;
             }
         }
     }

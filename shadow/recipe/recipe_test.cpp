@@ -400,7 +400,7 @@ TEST(CheckRecipe, StagesThatDoNotFitNameWhatWould) {
     recipe.lookup = &lookup;
     expect_has(refusal_of(recipe, GN_LIGHT_SPOT, {}),
                {"'paper-lookup' reads moments of paper", "'paper-map' gives depth",
-                "maps that give moments of paper: none", "lookups that read 'paper-map': ", ", hard, pcf"});
+                "maps that give moments of paper: none", "lookups that read 'paper-map': ", ", hard, ", ", pcf, "});
 }
 
 TEST(CheckRecipe, MissingFeaturesAreNamed) {

@@ -77,9 +77,9 @@ void main() {
         }
         hides = sum.hidden > 0.0;
         before = hides ? sum.before / sum.hidden : 0.0;
-        spread = own.z >= 1.0 ? 1.0e7 : hides ? gn_sssm_spread(u.light, position.xyz, before) : -1.0;
+        spread = own.z >= 1.0 ? gn_sssm_all() : hides ? gn_sssm_spread(u.light, position.xyz, before) : -1.0;
     }
-    imageStore(result, pixel, vec4(min(spread, 1.0e7)));
+    imageStore(result, pixel, vec4(min(spread, gn_sssm_all())));
     GN_SSSM_TELL
 }
 )";
@@ -115,7 +115,7 @@ struct GnSssmColumn { float weight; float lit; };
 void gn_sssm_take(inout GnSssmColumn sum, ivec2 other, float spread, float weight) {
     // Of one that has searched and found another penumbra the row is of no use.
     float theirs = texelFetch(spreads, other, 0).r;
-    bool alike = theirs < 0.0 || theirs > 1.0e6 || max(theirs, spread) <= u.params.widths * min(theirs, spread);
+    bool alike = theirs < 0.0 || theirs >= gn_sssm_all() || max(theirs, spread) <= u.params.widths * min(theirs, spread);
     if (alike) {
         sum.weight += weight;
         sum.lit += weight * texelFetch(rows, other, 0).r;
@@ -133,7 +133,7 @@ void main() {
     vec4 normal = gbuffer_normal_texel(pixel);
     float v = texelFetch(rows, pixel, 0).r;
     float spread = texelFetch(spreads, pixel, 0).r;
-    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && spread > 0.0 && spread < 1.0e6) {
+    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && spread > 0.0 && spread < gn_sssm_all()) {
         GnSssmColumn sum = GnSssmColumn(0.0, 0.0);
         columns(pixel, position.xyz, normal, spread, sum);
         v = sum.weight > 0.0 ? sum.lit / sum.weight : v;

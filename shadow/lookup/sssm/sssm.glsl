@@ -53,6 +53,9 @@ GN_FN float gn_sssm_spread(GnLight light, vec3 p_ws, float before) {
 GN_FN float gn_sssm_pack(float value) { return min(value * 5.42101086e-20f, 0.5f); }
 GN_FN float gn_sssm_unpack(float packed) { return packed * 1.84467441e19f; }
 
+// The spread that the picture has where all of the light is hidden: longer than any that is packed, in whatever unit.
+GN_FN float gn_sssm_all() { return 1.0e30f; }
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
@@ -109,10 +112,10 @@ vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyrami
 }
 #elif defined(GN_SSSM_FILTER)
 // The row through the receiver of a kernel as wide as the penumbra. `spreads`: the picture's, below 0 where nothing hides the
-// light, above 1e6 where all of it is hidden.
+// light, gn_sssm_all() where all of it is hidden.
 float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray spreads, GnSssmParams params) {
     float spread = texelFetch(spreads, ivec3(ivec2(at.receiver.p_ss), 0), 0).r;
-    if (spread < 0.0 || spread > 1.0e6) {
+    if (spread < 0.0 || spread >= gn_sssm_all()) {
         return spread < 0.0 ? 1.0 : 0.0;
     }
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);

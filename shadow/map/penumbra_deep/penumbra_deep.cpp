@@ -124,8 +124,8 @@ ShadowMap add_functions(const FrameInput& input, const Recipe& recipe, const Lig
     // Most rays end behind one surface, which every point sees once.
     const uvec3 size(views.resolution, views.resolution, views.layers);
     const auto points = static_cast<std::uint32_t>(params.lights);
-    const TexelLists lists =
-        add_texel_lists(input, "penumbra events", size, size.x * size.y * size.z * (points + points / 2 + 2));
+    const TexelLists lists = add_texel_lists(input, "penumbra events", size,
+                                             std::uint64_t{size.x} * size.y * size.z * (points + points / 2 + 2));
     int count = 1;
     add_point_maps(input, recipe, params.lights, [&](const PointMap& point) {
         add_march(point, recipe, views, lists);
