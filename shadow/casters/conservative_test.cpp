@@ -246,5 +246,12 @@ TEST(TexelListsRendered, CountWhatHasNoRoomAndHaveRoomInTheNextFrame) {
     EXPECT_EQ(second.remarks, std::set<std::string>{});
 }
 
+TEST(TexelListsRendered, AreNoLargerThanAStorageBlock) {
+    const Listed lists = list(soup(GN_LIGHT_DIRECTIONAL), 0xFFFFFFFF);
+    EXPECT_LE(std::uint64_t{lists.capacity} * sizeof(uvec2), test::device().properties().limits.maxStorageBufferRange);
+    EXPECT_GT(lists.stored, 100U);
+    EXPECT_EQ(lists.remarks, std::set<std::string>{});
+}
+
 }  // namespace
 }  // namespace gn
