@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/casters/point_maps.h"
 
+#include "gpu/graph_rounds_scope.h"
 #include "shadow/casters/caster_depth.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/scene/light_samples.h"
@@ -38,18 +39,6 @@ float gn_point_sees(vec3 p_ws, vec3 n_ws) {
 }
 )";
 
-/// Rounds of a graph that end also where one of them refuses.
-class Rounds {
-  public:
-    explicit Rounds(FrameGraph& graph) : graph_(graph) { graph.begin_rounds(); }
-    ~Rounds() { graph_.end_rounds(); }
-    Rounds(const Rounds&) = delete;
-    Rounds& operator=(const Rounds&) = delete;
-
-  private:
-    FrameGraph& graph_;
-};
-
 /// What a point's shadow alone would be drawn and looked up with: the same views, texels and bias as a sum of hard shadows has.
 Recipe hard(const Recipe& recipe) {
     Recipe one = recipe;
@@ -69,9 +58,9 @@ void add_point_maps(const FrameInput& input, const Recipe& recipe, int count,
     const Recipe one_recipe = hard(recipe);
     const Part& placement = recipe.placement_for(input.whole_light().shape);
     input.graph.hold(points);
-    const Rounds rounds(input.graph);
+    const RoundsScope rounds(input.graph);
     for (std::size_t i = 0; i < points->size(); ++i) {
-        input.graph.next_round();
+        rounds.next();
         FrameInput one = input;
         one.source = &points->at(i);
         one.parent = &input.whole_light();

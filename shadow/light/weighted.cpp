@@ -3,6 +3,7 @@
 // Eq. 1.6, with weights: V of an area is the mean of the V of its points.
 #include "shadow/light/weighted.h"
 
+#include "gpu/graph_rounds_scope.h"
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
@@ -151,20 +152,6 @@ bool looks_at_few(const Recipe& recipe) {
            recipe.casters != Casters::ids;
 }
 
-/// Rounds of a graph that end also where one of them refuses.
-class Rounds {
-  public:
-    explicit Rounds(FrameGraph& graph) : graph_(graph) { graph.begin_rounds(); }
-    ~Rounds() { graph_.end_rounds(); }
-    Rounds(const Rounds&) = delete;
-    Rounds& operator=(const Rounds&) = delete;
-    void next() const { graph_.next_round(); }
-    void end() const { graph_.end_rounds(); }
-
-  private:
-    FrameGraph& graph_;
-};
-
 /// One of the lights that serve another.
 struct Turn {
     int index = 0, count = 1;
@@ -227,7 +214,7 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe, std::vect
     // Serve light after light, each with what the one before has done with.
     TextureHandle sums;
     uint channels = 1;
-    const Rounds rounds(graph);
+    const RoundsScope rounds(graph);
     for (std::size_t i = 0; i < lights->size(); ++i) {
         rounds.next();
         const Turn turn = turn_of(static_cast<int>(i));
