@@ -257,4 +257,15 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe, std::vect
     return result;
 }
 
+std::string refuses_one_centre(const Light& light, const Recipe& recipe) {
+    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->from_centre &&
+        light.shape.kind == GN_LIGHT_SPOT) {
+        return fmt::format(
+            "placement '{}' sees the cone of light '{}' from its centre, and light '{}' looks from other points too; "
+            "use placement=fit or cube",
+            recipe.placement->id, light.name, recipe.light->id);
+    }
+    return {};
+}
+
 }  // namespace gn

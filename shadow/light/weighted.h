@@ -5,6 +5,7 @@
 #include "shadow/recipe/recipe.h"
 
 #include <functional>
+#include <string>
 
 namespace gn {
 
@@ -19,5 +20,8 @@ Visibility add_weighted(const FrameInput& input, const Recipe& recipe,
 using WatchLight = std::function<void(const FrameInput& one, int index, const Visibility& visibility)>;
 Visibility add_weighted(const FrameInput& input, const Recipe& recipe, std::vector<Light> given,
                         const std::function<Visibility(const FrameInput&)>& serve, const WatchLight& watch = {});
+
+/// The sentence why the recipe's light cannot look from the points of a spot, whose cone its placement sees from the centre, or "".
+std::string refuses_one_centre(const Light& light, const Recipe& recipe);
 
 }  // namespace gn

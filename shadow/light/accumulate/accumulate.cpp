@@ -6,6 +6,7 @@
 // Departs from it: points of a sphere weigh what each receiver sees of them; pixels may share the points out.
 #include "shadow/light/accumulate/accumulate.h"
 
+#include "shadow/light/weighted.h"
 #include "shadow/recipe/recipe.h"
 #include "shadow/scene/light_samples.h"
 
@@ -54,14 +55,7 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
             "light 'accumulate' cannot share {} lights among {} x {} pixels; accumulate.share is at most {}", count,
             params.share, params.share, static_cast<int>(std::sqrt(static_cast<float>(count))));
     }
-    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->from_centre &&
-        light.shape.kind == GN_LIGHT_SPOT) {
-        return fmt::format(
-            "placement '{}' sees the cone of light '{}' from its centre, and light 'accumulate' looks from other "
-            "points too; use placement=fit or cube",
-            recipe.placement->id, light.name);
-    }
-    return {};
+    return refuses_one_centre(light, recipe);
 }
 
 }  // namespace

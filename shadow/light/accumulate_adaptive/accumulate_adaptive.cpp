@@ -177,14 +177,7 @@ Visibility add_light(const FrameInput& input, const Recipe& recipe,
 }
 
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
-    if (recipe.map != nullptr && recipe.placement != nullptr && recipe.placement->from_centre &&
-        light.shape.kind == GN_LIGHT_SPOT) {
-        return fmt::format(
-            "placement '{}' sees the cone of light '{}' from its centre, and light 'accumulate-adaptive' looks from "
-            "other points too; use placement=fit or cube",
-            recipe.placement->id, light.name);
-    }
-    return {};
+    return refuses_one_centre(light, recipe);
 }
 
 }  // namespace
