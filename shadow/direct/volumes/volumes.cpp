@@ -5,17 +5,28 @@
 // form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
 // (volumes.md).
 //
-// Also here: volumes_passes.h, volumes_forms.cpp, volumes_lists.cpp, volumes_counts.cpp.
-#include "shadow/direct/volumes/volumes_passes.h"
+// Also here: volumes_modes_test.cpp. The passes stand in shadow/geometry.
+#include "shadow/direct/volumes/volumes.h"
+
 #include "shadow/geometry/draw.h"
+#include "shadow/geometry/volume_passes.h"
 #include "shadow/scene/casting.h"
 
 namespace gn {
 namespace {
 
+VolumeOptions options_of(const GnVolumesParams& params) {
+    constexpr std::array modes{VolumeMode::behind, VolumeMode::before, VolumeMode::capped, VolumeMode::cheapest};
+    return {.mode = modes.at(static_cast<std::size_t>(params.mode)),
+            .every_side = params.extrude == GN_VOLUMES_BRUTE_FORCE,
+            .skip_masked = params.masked == GN_VOLUMES_SKIP,
+            .closed = params.closed != 0,
+            .culling = params.culling != 0};
+}
+
 Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnVolumesParams>("volumes");
-    const VolumeBuffers buffers = import_volume_buffers(input, params);
+    const VolumeBuffers buffers = import_volume_buffers(input, options_of(params));
     add_facing(input, buffers);
     add_silhouettes(input, buffers);
     const TextureHandle receivers = add_receivers(input, buffers);
@@ -24,18 +35,25 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
 }
 
 std::string remark(const Scene& scene, const Recipe& recipe) {
+    const auto params = recipe.of<GnVolumesParams>("volumes");
+    std::string said;
+    if (params.mode == GN_VOLUMES_Z_PASS) {
+        said = "volumes.mode=z-pass is wrong wherever a shadow falls on the camera's near rectangle (auto is right)";
+    }
     bool masked = false;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         masked = masked || (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr));
     }
-    if (!masked) {
-        return "";
+    if (masked) {
+        said += said.empty() ? "" : "; ";
+        said +=
+            params.masked == GN_VOLUMES_OPAQUE
+                ? "volumes cannot see alpha: the masked polygons of this scene cast as a whole (volumes.masked=skip "
+                  "leaves them out)"
+                : "volumes cannot see alpha: the masked polygons of this scene cast nothing (volumes.masked=opaque "
+                  "casts them whole)";
     }
-    return recipe.of<GnVolumesParams>("volumes").masked == GN_VOLUMES_OPAQUE
-               ? "volumes cannot see alpha: the masked polygons of this scene cast as a whole (volumes.masked=skip "
-                 "leaves them out)"
-               : "volumes cannot see alpha: the masked polygons of this scene cast nothing (volumes.masked=opaque "
-                 "casts them whole)";
+    return said;
 }
 
 }  // namespace
@@ -47,11 +65,18 @@ const Part& direct_volumes() {
         Part p;
         p.id = "volumes";
         p.stage = Stage::direct;
-        p.title = "Shadow volumes, z-fail";
+        p.title = "Shadow volumes";
         p.citation = "EK02";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
         p.params = param_table<GnVolumesParams>({
+            GN_CHOICE(GnVolumesParams, mode,
+                      "Counts behind the samples (right anywhere), before them (cheaper, wrong where the camera is in "
+                      "shadow), before them with volumes closed at the near plane, or by each component's place.",
+                      "z-fail", "z-pass", "zp+", "auto"),
+            GN_CHOICE(GnVolumesParams, extrude,
+                      "Volumes of silhouettes, or of every triangle by itself: the same picture, many times the fill.",
+                      "silhouette", "brute-force"),
             GN_CHOICE(GnVolumesParams, masked,
                       "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),
             GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
@@ -60,7 +85,7 @@ const Part& direct_volumes() {
                      "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
         });
         p.params_type = "GnVolumesParams";
-        p.glsl = "shadow/direct/volumes/volumes.glsl";
+        p.glsl = "shadow/geometry/volumes.glsl";
         p.add_direct = add_volumes;
         p.remark = remark;
         return p;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/direct/volumes/volumes.glsl"
-#include "shadow/direct/volumes/volumes_passes.h"
+#include "shadow/geometry/volumes.glsl"
+#include "shadow/geometry/volume_passes.h"
 #include "tests/direct_scenes.h"
 
 #include <gtest/gtest.h>
@@ -161,7 +161,7 @@ TEST(VolumeForms, follow_the_solid_and_the_light) {
                             .scene();
     const EdgeList list = edges_of(scene);
     using Forms = std::vector<std::uint32_t>;
-    const GnVolumesParams params;
+    const VolumeOptions params;
     EXPECT_EQ(component_forms(list.components, sun({0, -1, 0}), params, nullptr),
               (Forms{GN_VOLUMES_FRONT, GN_VOLUMES_BACK, GN_VOLUMES_ANY}));
     EXPECT_EQ(component_forms(list.components, point({0.5F, 0.5F, 0.5F}), params, nullptr),
@@ -172,7 +172,7 @@ TEST(VolumeForms, follow_the_solid_and_the_light) {
     EXPECT_EQ(component_forms(list.components, near, params, nullptr)[2], static_cast<uint>(GN_VOLUMES_NONE));
     EXPECT_EQ(component_forms(list.components, spot({0, 5, 0}, {0, 5, 9}, 0.3F), params, nullptr),
               (Forms{GN_VOLUMES_NONE, GN_VOLUMES_NONE, GN_VOLUMES_NONE}));
-    EXPECT_EQ(component_forms(list.components, spot({0, 5, 0}, {0, 5, 9}, 0.3F), {.culling = 0}, nullptr),
+    EXPECT_EQ(component_forms(list.components, spot({0, 5, 0}, {0, 5, 9}, 0.3F), {.culling = false}, nullptr),
               (Forms{GN_VOLUMES_FRONT, GN_VOLUMES_BACK, GN_VOLUMES_ANY}));
 }
 
@@ -352,14 +352,16 @@ class VolumesRendered : public testing::TestWithParam<Case> {};
 
 TEST_P(VolumesRendered, equals_the_traced_hard_shadow_away_from_edges) {
     const Scene scene = GetParam().make();
-    const char* switches[][2] = {{"1", "1"}, {"0", "0"}};
-    for (const auto& [closed, culling] : switches) {
-        const Recipe recipe = direct_recipe(parts::direct_volumes(), {{"closed", closed}, {"culling", culling}});
+    const char* switches[][4] = {
+        {"auto", "1", "1", "silhouette"}, {"z-fail", "0", "0", "brute-force"}, {"zp+", "1", "0", "silhouette"}};
+    for (const auto& [mode, closed, culling, extrude] : switches) {
+        const Recipe recipe = direct_recipe(
+            parts::direct_volumes(), {{"mode", mode}, {"closed", closed}, {"culling", culling}, {"extrude", extrude}});
         std::size_t lit = 0, shadowed = 0;
         const std::vector<Comparison> results = render_and_judge(scene, recipe);
         for (std::size_t i = 0; i < results.size(); ++i) {
-            EXPECT_EQ(results[i].wrong, 0U) << scene.lights[i].name << " closed=" << closed << " culling=" << culling
-                                            << ", " << results[i].judged << " judged: " << results[i].first;
+            EXPECT_EQ(results[i].wrong, 0U) << scene.lights[i].name << " mode=" << mode << " closed=" << closed << ", "
+                                            << results[i].judged << " judged: " << results[i].first;
             EXPECT_GT(results[i].judged, 500U);
             lit += results[i].lit;
             shadowed += results[i].shadowed;
@@ -399,7 +401,9 @@ Scene random_scene(unsigned seed) {
 TEST(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
     std::size_t lit = 0, shadowed = 0;
     for (unsigned seed = 0; seed < 18; ++seed) {
-        const Recipe recipe = direct_recipe(parts::direct_volumes(), {{"closed", seed % 2 == 0 ? "1" : "0"}});
+        const char* modes[] = {"auto", "z-fail", "zp+"};
+        const Recipe recipe = direct_recipe(parts::direct_volumes(),
+                                            {{"closed", seed % 2 == 0 ? "1" : "0"}, {"mode", modes[seed / 3 % 3]}});
         for (const Comparison& result : render_and_judge(random_scene(seed), recipe)) {
             EXPECT_EQ(result.wrong, 0U) << "seed " << seed << ", " << result.judged << " judged: " << result.first;
             lit += result.lit;

@@ -3,10 +3,10 @@
 // Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008. [KKJ08]
 //
 // The formulas of the volumes; they compile as GLSL and as C++. Define GN_VOLUMES_DOUBLE where shaders have 64-bit floats.
-#ifndef GN_SHADOW_DIRECT_VOLUMES_GLSL
-#define GN_SHADOW_DIRECT_VOLUMES_GLSL
+#ifndef GN_SHADOW_GEOMETRY_VOLUMES_GLSL
+#define GN_SHADOW_GEOMETRY_VOLUMES_GLSL
 
-#include "shadow/direct/volumes/volumes.h"
+#include "shadow/geometry/volumes.h"
 
 // A host whose device has doubles may ask for them:
 //   #define GN_VOLUMES_DOUBLE
@@ -46,6 +46,14 @@ GN_FN int gn_volumes_multiplicity(int side, int form) {
     return form == GN_VOLUMES_BACK && side < 0 ? -1 : 0;
 }
 
+// A multiplicity with the side of the samples on which its volume counts, for the pass that lists sides.
+GN_FN int gn_volumes_packed(int m, bool before) {
+    return m != 0 && before ? m + 4 : m;
+}
+GN_FN int gn_volumes_unpacked(int packed) {
+    return packed > 1 ? packed - 4 : packed;
+}
+
 // The way that light takes at a point.
 GN_FN vec3 gn_volumes_away(vec3 p_ws, vec4 light_ws) {
     return p_ws * light_ws.w - vec3(light_ws);
@@ -71,9 +79,28 @@ GN_FN bool gn_volumes_has_far_cap(GnVolumesFrame frame) {
     return frame.light_ws.w > 0.0f || frame.reach > 0.0f;
 }
 
-// Corners of a side: two triangles, or one where both points at infinity are the same.
+// Where the near plane lies, in clip space: 0 in it, positive beyond it.
+GN_FN float gn_volumes_beyond_near(vec4 p_cs) {
+    return p_cs.w - p_cs.z;
+}
+
+// Where the light throws a point's shadow on the near plane: the line through both meets the plane there. Its w is positive
+// where the point lies between light and plane, up to the side (gn_volumes_before_near). [HHLH05] section 3
+GN_FN vec4 gn_volumes_on_near(vec4 p_cs, vec4 light_cs) {
+    float p = gn_volumes_beyond_near(p_cs), l = gn_volumes_beyond_near(light_cs);
+    vec4 q_cs = l < 0.0f ? light_cs * p - p_cs * l : p_cs * l - light_cs * p;
+    return vec4(q_cs.x, q_cs.y, q_cs.w, q_cs.w);
+}
+
+// How far a point lies on the light's side of the near plane.
+GN_FN float gn_volumes_before_near(vec4 p_cs, vec4 light_cs) {
+    float p = gn_volumes_beyond_near(p_cs);
+    return gn_volumes_beyond_near(light_cs) < 0.0f ? -p : p;
+}
+
+// Corners of a side: two triangles, or one where both points at infinity are the same and it nowhere ends before.
 GN_FN uint gn_volumes_corners(GnVolumesFrame frame) {
-    return gn_volumes_has_far_cap(frame) ? 6u : 3u;
+    return gn_volumes_has_far_cap(frame) || frame.capped != 0 ? 6u : 3u;
 }
 
 // The far end of the strip of a side that lies at its edge: pushed away by what 64 pixels span there, so that even seen

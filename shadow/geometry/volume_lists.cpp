@@ -4,8 +4,8 @@
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
 #include "gpu/shader_inputs.h"
 #include "gpu/upload.h"
-#include "shadow/direct/volumes/volumes_passes.h"
 #include "shadow/geometry/caster_geometry.h"
+#include "shadow/geometry/volume_passes.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 
@@ -22,8 +22,8 @@ void main() {
     uint t = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     // One instance of each draw; the second list of opaque caps begins where the first must end.
     if (t == 0u) {
-        draws[1] = draws[5] = draws[9] = draws[13] = draws[17] = draws[22] = 1u;
-        draws[23] = 3u * u.frame.opaque_triangles;
+        draws[1] = draws[5] = draws[9] = draws[13] = draws[17] = draws[21] = draws[25] = draws[30] = 1u;
+        draws[31] = 3u * u.frame.opaque_triangles;
     }
     if (t >= u.frame.triangles) {
         return;
@@ -32,27 +32,33 @@ void main() {
     uint owner = owners[t];
     uvec3 corners = uvec3(indices[3u * t], indices[3u * t + 1u], indices[3u * t + 2u]);
     int m = 0;
+    uint form = uint(GN_VOLUMES_NONE);
     if (owner != ~0u) {
+        form = forms[owner >> 3];
         int side = gn_volumes_side(positions[corners.x], positions[corners.y], positions[corners.z], u.frame.light_ws);
         side = (owner & 2u) != 0u ? max(side, 0) : side;
-        m = gn_volumes_multiplicity(side, int(forms[owner >> 3]));
+        m = gn_volumes_multiplicity(side, int(form & 3u));
     }
-    multiplicity[t] = m;
+    bool before = (form & uint(GN_VOLUMES_BEFORE)) != 0u;
+    multiplicity[t] = gn_volumes_packed(m, before);
     if (m == 0) {
         return;
     }
     if ((owner & 1u) == 0u) {
-        // List an opaque cap's vertices.
-        uint first = atomicAdd(draws[m < 0 ? 21 : 16], 3u) + (m < 0 ? 3u * u.frame.opaque_triangles : 0u);
+        // List an opaque cap's vertices: no sample is behind it, so where volumes count before samples it need not be seen.
+        if (before && (form & uint(GN_VOLUMES_CAPPED)) == 0u) {
+            return;
+        }
+        uint first = atomicAdd(draws[m < 0 ? 29 : 24], 3u) + (m < 0 ? 3u * u.frame.opaque_triangles : 0u);
         cap_indices[first] = corners.x;
         cap_indices[first + 1u] = corners.y;
         cap_indices[first + 2u] = corners.z;
         return;
     }
-    // List a cap that is compared: those turned as wound from the front of the list, the others from its end.
+    // List a cap that is compared: those that count behind the sample from the front of the list, the others from its end.
     uint each = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
-    uint slot = atomicAdd(draws[m < 0 ? 12 : 8], each) / each;
-    caps[m > 0 ? u.frame.opaque_triangles + slot : u.frame.triangles - 1u - slot] = t;
+    uint slot = atomicAdd(draws[before ? 20 : 16], each) / each;
+    caps[before ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot] = t * 2u + (m < 0 ? 1u : 0u);
 }
 )";
 
@@ -63,22 +69,30 @@ void main() {
     if (edge >= u.frame.edges) {
         return;
     }
-    // Sum the directions in which the edge's triangles run through it, each turned to the light.
+    // Sum the directions in which the edge's triangles run through it, each turned to the light. What does not cancel is the
+    // border of the volume: as many sides as are left over. [KKJ08] section 2
     int sum = 0;
-    uint end = first[edge + 1u];
+    uint sides_of_all = 0u, end = first[edge + 1u];
+    bool before = false;
     for (uint i = first[edge]; i < end; ++i) {
-        int m = multiplicity[around[i] >> 1];
+        int packed = multiplicity[around[i] >> 1];
+        int m = gn_volumes_unpacked(packed);
+        before = before || packed > 1;
         sum += (around[i] & 1u) != 0u ? -m : m;
+        sides_of_all += uint(abs(m));
     }
-    // What does not cancel is the border of the volume: as many sides as are left over. [KKJ08] section 2
-    uint count = uint(abs(sum));
+    uint count = u.frame.every != 0 ? sides_of_all : uint(abs(sum));
     if (count == 0u) {
         return;
     }
-    uint slot = atomicAdd(draws[4], count * 6u) / 6u;
-    atomicAdd(draws[0], count * gn_volumes_corners(u.frame));
+    uint slot = atomicAdd(draws[before ? 12 : 8], count * 6u) / 6u;
+    atomicAdd(draws[before ? 4 : 0], count * gn_volumes_corners(u.frame));
+    // By brute force as many run against the edge as are missing from the sum.
+    uint against = sum < 0 ? count : 0u;
+    against = u.frame.every != 0 ? uint(int(count) - sum) / 2u : against;
     for (uint i = 0u; i < count; ++i) {
-        sides[slot + i] = edge * 2u + (sum < 0 ? 1u : 0u);
+        uint side = edge * 2u + (i < against ? 1u : 0u);
+        sides[before ? u.frame.most_sides - 1u - slot - i : slot + i] = side;
     }
 }
 )";
@@ -97,7 +111,7 @@ struct ListPass {
 void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderInputs& inputs, std::uint32_t count) {
     const auto shader = compute_once(input.prepared, pass.name, hashed(inputs), [&] {
         return std::string(pass.doubles ? "#define GN_VOLUMES_DOUBLE\n" : "") +
-               "#include \"shadow/direct/volumes/volumes.glsl\"\n" + inputs.text() + pass.text;
+               "#include \"shadow/geometry/volumes.glsl\"\n" + inputs.text() + pass.text;
     });
     input.graph.add_pass(
         pass.name, [&](PassBuilder& builder) { inputs.declare(builder); },
@@ -173,9 +187,9 @@ std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool sk
 
 }  // namespace
 
-VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesParams& params) {
+VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions& options) {
     FrameGraph& graph = input.graph;
-    VolumeBuffers buffers{.scene = edge_buffers(input, params.masked == GN_VOLUMES_SKIP)};
+    VolumeBuffers buffers{.scene = edge_buffers(input, options.skip_masked)};
     const EdgeBuffers& scene = *buffers.scene;
     graph.hold(buffers.scene);
     buffers.edges = graph.import(scene.edges);
@@ -185,7 +199,7 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
 
     // Decide for each component how it casts; a buffer is never empty.
     const GnLight& light = input.light().shape;
-    buffers.forms = component_forms(scene.list.components, light, params, &input.samples.constants.cs_from_ws);
+    buffers.forms = component_forms(scene.list.components, light, options, &input.samples.constants.cs_from_ws);
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
@@ -194,9 +208,12 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const GnVolumesPara
                      .triangles = static_cast<uint>(input.scene.triangles.size()),
                      .edges = static_cast<uint>(scene.list.edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
+                     .most_sides = static_cast<uint>(scene.list.around.size()),
                      .snap = snap_pixels(input.device),
                      .pixel = pixel_metres(input.samples),
-                     .reach = reach_of_volumes(input)};
+                     .reach = reach_of_volumes(input),
+                     .capped = options.mode == VolumeMode::capped ? 1 : 0,
+                     .every = options.every_side ? 1 : 0};
 
     // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.
     const VkDeviceSize triangles = buffers.frame.triangles;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The passes of one light's shadow volumes, in order.
+#pragma once
+
+#include "gpu/shader_inputs.h"
+#include "shadow/geometry/edges.h"
+#include "shadow/geometry/volumes.h"
+#include "shadow/recipe/recipe.h"
+
+#include <memory>
+
+namespace gn {
+
+/// What lives as long as the frame's graph: a scene's edges on the GPU.
+struct EdgeBuffers {
+    EdgeList list;
+    std::uint32_t opaque_triangles = 0;
+    Buffer edges, first, around;  ///< as EdgeList
+    Buffer
+        owners;  ///< per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when either; ~0: it casts nothing
+};
+
+/// The draws of a light, in words of the buffer `draws`. Sides, their strips and the compared caps (masked and one-sided
+/// ones) have a VkDrawIndirectCommand for what counts behind the sample and, 4 words on, for what counts before it; opaque caps
+/// a VkDrawIndexedIndirectCommand by sign, 5 words apart.
+enum VolumeDraw : std::uint32_t {
+    sides_draw = 0,
+    strips_draw = 8,
+    compared_draw = 16,
+    opaque_draw = 24,
+    draw_words = 34
+};
+
+/// On which side of the samples volumes are counted.
+enum class VolumeMode {
+    behind,    ///< z-fail: right wherever the camera stands
+    before,    ///< z-pass: right where the near rectangle lies in no volume
+    capped,    ///< zp+: z-pass, and volumes that may hold part of the near rectangle are closed there
+    cheapest,  ///< z-pass for each component whose volumes cannot hold part of the near rectangle, z-fail for the others
+};
+
+/// What a part asks of its volumes.
+struct VolumeOptions {
+    VolumeMode mode = VolumeMode::behind;
+    bool every_side = false;   ///< three sides a triangle, none cancelled
+    bool skip_masked = false;  ///< masked objects have no volumes
+    bool closed = true;        ///< solids cast with one half of their surface
+    bool culling = true;       ///< components whose shadow cannot be seen are left out
+};
+
+struct VolumeBuffers {
+    std::shared_ptr<const EdgeBuffers> scene;  ///< the graph holds it
+    std::vector<std::uint32_t> forms;          ///< per component: GN_VOLUMES_*
+    GnVolumesFrame frame;
+    BufferHandle edges, first, around, owners;
+    BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1, + 4 where it is not 0 and counts before the sample
+    BufferHandle
+        caps;  ///< triangle * 2 + 1 when turned over, of compared caps, from both ends by side, behind opaque_triangles slots
+    BufferHandle indices;  ///< of the vertices of opaque caps: a list of triangles for either sign
+    BufferHandle sides;    ///< edge * 2 + 1 when turned over, from both ends by side
+    BufferHandle draws;    ///< VolumeDraw
+};
+
+/// GLSL of a shader that draws volumes, after the inputs' declarations; side_body draws their sides.
+std::string volume_shader(const ShaderInputs& inputs, std::string_view text);
+inline constexpr std::string_view side_body = "#include \"shadow/geometry/volume_side.glsl\"\n";
+/// What the sides' shader reads.
+ShaderInputs volume_side_inputs(const FrameInput& input, const VolumeBuffers& buffers);
+
+/// The scene's edges (built once a geometry, uploaded once a graph) and this light's lists.
+VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions& options);
+/// How each component casts and counts for this light: GN_VOLUMES_* per component. `cs_from_ws` null: the view culls nothing,
+/// and nothing is known to lie off its near rectangle.
+std::vector<std::uint32_t> component_forms(std::span<const Component> components, const GnLight& light,
+                                           const VolumeOptions& options, const mat4* cs_from_ws);
+/// Whether the shadow of something in the box can fall on the view's near rectangle; never false where it does.
+bool may_shade_near_plane(const Box& box, vec4 light_ws, const mat4& cs_from_ws);
+/// Turns every triangle to the light and lists the caps.
+void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
+/// Sums the triangles around every edge and lists the sides.
+void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
+/// A depth of its own: the view samples' depth, lifted where a sample touches the edge of a volume.
+TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers);
+/// Counts how many volumes hold each view sample.
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers);
+/// V = 1 where the count is zero and the sample counts for the light.
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts);
+
+}  // namespace gn
