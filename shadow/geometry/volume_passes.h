@@ -63,7 +63,7 @@ struct VolumeBuffers {
 
 /// GLSL of a shader that draws volumes, after the inputs' declarations; side_body draws their sides.
 std::string volume_shader(const ShaderInputs& inputs, std::string_view text);
-inline constexpr std::string_view side_body = "#include \"shadow/geometry/volume_side.glsl\"\n";
+extern const std::string_view side_body;
 /// What the sides' shader reads.
 ShaderInputs volume_side_inputs(const FrameInput& input, const VolumeBuffers& buffers);
 

@@ -8,6 +8,8 @@
 
 namespace gn {
 
+const std::string_view side_body = "#include \"shadow/geometry/volume_side.glsl\"\n";
+
 std::string volume_shader(const ShaderInputs& inputs, std::string_view text) {
     return "#include \"shadow/geometry/volumes.glsl\"\n#include \"shadow/view/project.glsl\"\n" + inputs.text() +
            std::string(text);
