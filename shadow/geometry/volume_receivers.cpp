@@ -67,13 +67,13 @@ ReceiverPipelines receiver_pipelines(const ShaderInputs& inputs) {
     copy.depth_compare = VK_COMPARE_OP_ALWAYS;
     // The beginning of each side, where it may lie before a sample that touches the edge it hangs from.
     const auto border_of = [&](std::uint32_t before) {
-    RasterDesc border;
-    border.vertex = {ShaderKind::vertex, "volume-side.vert", volume_shader(inputs, side_body)};
-    border.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", volume_shader(inputs, border_text)};
-    border.constants = {{0, 1U}, {3, before}};
-    border.depth_test = border.depth_write = border.depth_clamp = true;
-    border.depth_compare = VK_COMPARE_OP_GREATER;
-    return sealed(std::move(border));
+        RasterDesc border;
+        border.vertex = {ShaderKind::vertex, "volume-side.vert", volume_shader(inputs, side_body)};
+        border.fragment = ShaderSource{ShaderKind::fragment, "volume-border.frag", volume_shader(inputs, border_text)};
+        border.constants = {{0, 1U}, {3, before}};
+        border.depth_test = border.depth_write = border.depth_clamp = true;
+        border.depth_compare = VK_COMPARE_OP_GREATER;
+        return sealed(std::move(border));
     };
     return {sealed(std::move(copy)), {border_of(0), border_of(1)}};
 }

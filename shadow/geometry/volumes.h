@@ -24,12 +24,12 @@ struct GnVolumesFrame {
     uint triangles;
     uint edges;
     uint opaque_triangles;  ///< slots of the list of caps that opaque triangles have; compared ones follow
-    uint most_sides;        ///< the most sides there can be: those that count before the sample are listed from this end
-    float snap;             ///< pixels by which the rasterizer may move an edge
-    float pixel;            ///< metres that a pixel spans at a distance of 1 m, or everywhere (orthographic)
-    float reach;            ///< metres that a sun's volumes are long; 0: without end, for any light
-    int capped;             ///< 1: volumes are closed at the near plane (zp+), and all count before the sample
-    int every;              ///< 1: each triangle has three sides of its own, whatever cancels (brute force)
+    uint most_sides;  ///< the most sides there can be: those that count before the sample are listed from this end
+    float snap;       ///< pixels by which the rasterizer may move an edge
+    float pixel;      ///< metres that a pixel spans at a distance of 1 m, or everywhere (orthographic)
+    float reach;      ///< metres that a sun's volumes are long; 0: without end, for any light
+    int capped;       ///< 1: volumes are closed at the near plane (zp+), and all count before the sample
+    int every;        ///< 1: each triangle has three sides of its own, whatever cancels (brute force)
 };
 
 #endif

@@ -19,9 +19,9 @@ using namespace by_hand;
 std::vector<std::vector<float>> visibility(const Scene& scene, const char* mode, uint width, uint height) {
     Device& gpu = device();
     SceneGpu uploaded = upload_scene(gpu, scene);
-    const FrameResult frame = render_frame(gpu, uploaded, scene.cameras.front(),
-                                           direct_recipe(parts::direct_volumes(), {{"mode", mode}}),
-                                           {.width = width, .height = height, .picture = false});
+    const FrameResult frame =
+        render_frame(gpu, uploaded, scene.cameras.front(), direct_recipe(parts::direct_volumes(), {{"mode", mode}}),
+                     {.width = width, .height = height, .picture = false});
     std::vector<std::vector<float>> images;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         EXPECT_EQ(frame.refused[i], "");
@@ -56,7 +56,8 @@ Scene stairs(int above_all, int above_some) {
     SceneBuilder b;
     b.ground(12).camera({0, 0.5F, 0}, {6, 0, 0.3F});
     for (int i = 0; i < above_all + above_some; ++i) {
-        const float y = 1.5F + 0.003F * static_cast<float>(i), end = i < above_all ? 9.0F : 2.0F + static_cast<float>(i - above_all);
+        const float y = 1.5F + 0.003F * static_cast<float>(i),
+                    end = i < above_all ? 9.0F : 2.0F + static_cast<float>(i - above_all);
         b.quad({i < above_all ? -1 : 1.2F, y, 9}, {end, y, 9}, {end, y, -9}, {i < above_all ? -1 : 1.2F, y, -9});
     }
     return b.light(sun({0, -1, 0})).scene();
@@ -67,12 +68,14 @@ TEST(VolumeModes, in_k_volumes_z_pass_counts_k_too_few) {
     const Scene scene = stairs(2, 3);
     const auto fail = visibility(scene, "z-fail", 160, 96), pass = visibility(scene, "z-pass", 160, 96);
     SceneGpu uploaded = upload_scene(device(), scene);
-    const FrameResult frame = render_frame(device(), uploaded, scene.cameras.front(), direct_recipe(parts::direct_volumes()),
-                                           {.width = 160, .height = 96, .picture = false});
+    const FrameResult frame =
+        render_frame(device(), uploaded, scene.cameras.front(), direct_recipe(parts::direct_volumes()),
+                     {.width = 160, .height = 96, .picture = false});
     std::size_t in_two = 0, in_none = 0, in_more = 0;
     for (std::size_t i = 0; i < pass[0].size(); ++i) {
         const vec4 p = frame.samples.position_ws[i];
-        if (p.w == 0.0F || std::abs(p.y) > 1e-3F || std::abs(p.x - std::round(p.x)) < 0.02F || std::abs(p.x - 1.2F) < 0.02F) {
+        if (p.w == 0.0F || std::abs(p.y) > 1e-3F || std::abs(p.x - std::round(p.x)) < 0.02F ||
+            std::abs(p.x - 1.2F) < 0.02F) {
             continue;
         }
         int held = p.x > -1.0F && p.x < 9.0F && std::abs(p.z) < 9.0F ? 2 : 0;
@@ -112,7 +115,10 @@ TEST(VolumeModes, what_shades_the_near_rectangle_is_always_told) {
     const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
     int shading = 0, apart = 0;
     for (int round = 0; round < 3000; ++round) {
-        const Camera camera{.position_ws = any(), .forward_ws = glm::normalize(any()), .up_ws = vec3(0, 1, 0), .near = 0.1F + 0.2F * std::abs(unit(random))};
+        const Camera camera{.position_ws = any(),
+                            .forward_ws = glm::normalize(any()),
+                            .up_ws = vec3(0, 1, 0),
+                            .near = 0.1F + 0.2F * std::abs(unit(random))};
         const mat4 cs_from_ws = cs_from_vs(camera, 1.5F) * vs_from_ws(camera);
         const vec4 light_ws = round % 2 == 0 ? vec4(glm::normalize(any()), 0) : vec4(3.0F * any(), 1);
         const vec3 centre = 1.5F * any(), half = vec3(0.02F) + 0.6F * glm::abs(any());

@@ -374,46 +374,6 @@ TEST_P(VolumesRendered, equals_the_traced_hard_shadow_away_from_edges) {
 INSTANTIATE_TEST_SUITE_P(Scenes, VolumesRendered, testing::ValuesIn(cases),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// A mesh of the seed's kind among random lights, one of them next to the camera, one behind it along the axis.
-Scene random_scene(unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
-    const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
-    SceneBuilder b;
-    b.ground(10);
-    for (int i = 0; i < 12 && seed % 3 == 0; ++i) {
-        const vec3 centre = vec3(0, 1.5F, 0) + vec3(3, 1.2F, 3) * any(), half = vec3(0.1F) + 0.5F * glm::abs(any());
-        b.box(centre - half, centre + half, i % 2 == 0);
-    }
-    for (int i = 0; i < 4 && seed % 3 == 1; ++i) {
-        b.torus(vec3(0, 1.5F, 0) + 2.0F * any() * vec3(1, 0.5F, 1), 0.6F + 0.4F * unit(random), 0.2F, 10 + seed % 11);
-    }
-    if (seed % 3 == 2) {
-        b.soup({{-3, 0.2F, -3}, {3, 3, 3}}, 1.3F, 80, seed);
-    }
-    const vec3 eye = vec3(0, 1.7F, 0) + vec3(5, 1.6F, 5) * any(), at = vec3(0, 0.8F, 0) + vec3(1.5F, 0, 1.5F) * any();
-    b.camera(eye, at, seed % 5 == 0 ? 0.5F : 0.1F);
-    b.light(sun(vec3(0, -1.1F, 0) + any())).light(point(vec3(0, 2.5F, 0) + vec3(3, 2, 3) * any()));
-    b.light(point(eye + 0.3F * any())).light(sun(at - eye + 0.02F * any()));
-    return b.scene();
-}
-
-TEST(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
-    std::size_t lit = 0, shadowed = 0;
-    for (unsigned seed = 0; seed < 18; ++seed) {
-        const char* modes[] = {"auto", "z-fail", "zp+"};
-        const Recipe recipe = direct_recipe(parts::direct_volumes(),
-                                            {{"closed", seed % 2 == 0 ? "1" : "0"}, {"mode", modes[seed / 3 % 3]}});
-        for (const Comparison& result : render_and_judge(random_scene(seed), recipe)) {
-            EXPECT_EQ(result.wrong, 0U) << "seed " << seed << ", " << result.judged << " judged: " << result.first;
-            lit += result.lit;
-            shadowed += result.shadowed;
-        }
-    }
-    EXPECT_GT(lit, 100000U);
-    EXPECT_GT(shadowed, 100000U);
-}
-
 TEST(VolumesMasked, a_masked_quad_casts_as_a_whole_or_not_at_all) {
     const test::ValidationGuard guard;
     // A quad whose texture is a hole above the ground; the truth sees through it entirely where alpha is zero.

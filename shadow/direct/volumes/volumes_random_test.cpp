@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Random meshes of every kind against the traced hard shadow: closed and intersecting, welded rings, loose triangles, fans of
+// sheets on one edge, faces that lie on each other.
+#include "tests/direct_scenes.h"
+#include "tests/thorough.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gn {
+namespace parts {
+const Part& direct_volumes();
+}
+namespace {
+
+using namespace by_hand;
+
+constexpr unsigned kinds = 5;
+
+// Among random lights, one of them next to the camera, one behind it along the axis.
+Scene random_scene(unsigned kind, unsigned seed) {
+    std::mt19937 random(kinds * seed + kind);
+    std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+    const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
+    const auto place = [&] { return vec3(0, 1.5F, 0) + vec3(3, 1.2F, 3) * any(); };
+    SceneBuilder b;
+    b.ground(10);
+    for (int i = 0; i < 12 && kind == 0; ++i) {
+        const vec3 centre = place(), half = vec3(0.1F) + 0.5F * glm::abs(any());
+        b.box(centre - half, centre + half, i % 2 == 0);
+    }
+    for (int i = 0; i < 4 && kind == 1; ++i) {
+        b.torus(vec3(0, 1.5F, 0) + 2.0F * any() * vec3(1, 0.5F, 1), 0.6F + 0.4F * unit(random), 0.2F, 10 + seed % 11);
+    }
+    if (kind == 2) {
+        b.soup({{-3, 0.2F, -3}, {3, 3, 3}}, 1.3F, 80, seed);
+    }
+    for (int i = 0; i < 10 && kind == 3; ++i) {
+        const vec3 o = place();
+        b.mesh({o, o + any(), o + any(), o + any(), o + any(), o + any()}, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {0, 5, 1}});
+    }
+    for (int i = 0; i < 10 && kind == 4; ++i) {
+        const vec3 o = place();
+        b.mesh({o, o + any(), o + any()}, i % 2 == 0 ? std::vector<uvec3>{{0, 1, 2}, {0, 2, 1}}
+                                                     : std::vector<uvec3>{{0, 1, 2}, {0, 1, 2}, {1, 2, 0}});
+    }
+    const vec3 eye = vec3(0, 1.7F, 0) + vec3(5, 1.6F, 5) * any(), at = vec3(0, 0.8F, 0) + vec3(1.5F, 0, 1.5F) * any();
+    b.camera(eye, at, seed % 5 == 0 ? 0.5F : 0.1F);
+    b.light(sun(vec3(0, -1.1F, 0) + any())).light(point(vec3(0, 2.5F, 0) + vec3(3, 2, 3) * any()));
+    b.light(point(eye + 0.3F * any())).light(sun(at - eye + 0.02F * any()));
+    return b.scene();
+}
+
+class VolumesRandom : public testing::TestWithParam<unsigned> {};
+
+TEST_P(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
+    const unsigned seeds = test::thorough() ? 300 : 10;
+    std::size_t lit = 0, shadowed = 0;
+    for (unsigned seed = 0; seed < seeds; ++seed) {
+        const char* modes[] = {"auto", "z-fail", "zp+"};
+        const Recipe recipe = direct_recipe(parts::direct_volumes(),
+                                            {{"closed", seed % 2 == 0 ? "1" : "0"}, {"mode", modes[seed % 3]}});
+        for (const Comparison& result : render_and_judge(random_scene(GetParam(), seed), recipe, 120, 90)) {
+            EXPECT_EQ(result.wrong, 0U) << "seed " << seed << ", " << modes[seed % 3] << ", " << result.judged << " judged: " << result.first;
+            lit += result.lit;
+            shadowed += result.shadowed;
+        }
+    }
+    EXPECT_GT(lit, 500U * seeds);
+    EXPECT_GT(shadowed, 500U * seeds);
+}
+
+std::string kind_name(const testing::TestParamInfo<unsigned>& tested) {
+    const char* names[kinds] = {"boxes", "rings", "loose", "fans", "double"};
+    return names[tested.param];
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, VolumesRandom, testing::Range(0U, kinds), kind_name);
+
+}  // namespace
+}  // namespace gn
