@@ -11,12 +11,4 @@ struct GnPlanarParams {
     float tolerance GN_DEFAULT(1.0e-5f);  ///< of the scene's diagonal that a plane may be thick
 };
 
-// One receiver plane and the light above it.
-struct GnPlanarFrame {
-    mat4 cs_from_ws;
-    vec4 light_ws;    ///< w = 1: a point; w = 0: the direction towards it
-    vec4 plane_ws;    ///< unit normal and offset; the light is on its positive side
-    float tolerance;  ///< metres
-};
-
 #endif

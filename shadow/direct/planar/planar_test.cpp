@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/direct/planar/planar.glsl"
-#include "shadow/direct/planar/planar_planes.h"
+#include "shadow/direct/planar/planar.h"
+#include "shadow/geometry/flattened.glsl"
+#include "shadow/geometry/receiver_planes.h"
 #include "tests/direct_scenes.h"
 
 #include <gtest/gtest.h>
@@ -24,15 +25,15 @@ TEST(PlanarLaws, the_projection_lies_on_the_plane_and_on_the_line_from_the_light
         const bool directional = round % 2 == 0;
         const vec3 away(at(random), at(random), at(random));
         const vec4 light = directional ? vec4(glm::normalize(2.0F * n + away), 0) : vec4(p + 2.0F * n + away, 1);
-        const vec4 q = gn_planar_project(plane, light, p);
+        const vec4 q = gn_plane_project(plane, light, p);
         ASSERT_GT(q.w, 0.0F) << "between light and plane";
         const vec3 shadow = vec3(q) / q.w;
-        EXPECT_NEAR(gn_planar_height(plane, vec4(shadow, 1)), 0.0F, 2e-5F);
+        EXPECT_NEAR(gn_plane_height(plane, vec4(shadow, 1)), 0.0F, 2e-5F);
         const vec3 to_light = directional ? vec3(light) : vec3(light) - p;
         EXPECT_NEAR(glm::length(glm::cross(glm::normalize(to_light), glm::normalize(p - shadow))), 0.0F, 1e-5F);
         // Above the light and below the plane the same matrix throws the antishadow: w changes its sign, or the height.
         if (!directional) {
-            EXPECT_LT(gn_planar_project(plane, light, vec3(light) + 0.5F * n).w, 0.0F);
+            EXPECT_LT(gn_plane_project(plane, light, vec3(light) + 0.5F * n).w, 0.0F);
         }
     }
 }
@@ -137,7 +138,7 @@ TEST_P(PlanarRendered, equals_the_traced_hard_shadow_on_flat_receivers) {
     const Scene scene = GetParam().make();
     // Every flat part of these scenes is a receiver; the loose triangles of the soup are left to their share.
     const Recipe recipe = direct_recipe(parts::direct_planar(), {{"planes", "16"}, {"min_area", "0.001"}});
-    const auto found = receiver_planes(scene, recipe.of<GnPlanarParams>("planar"));
+    const auto found = receiver_planes(scene, PlaneSearch{16, 0.001F, 1e-5F});
     SceneGpu uploaded = upload_scene(device(), scene);
     const FrameResult frame = render_frame(device(), uploaded, scene.cameras.front(), recipe,
                                            {.width = 160, .height = 120, .picture = false});
@@ -149,8 +150,7 @@ TEST_P(PlanarRendered, equals_the_traced_hard_shadow_on_flat_receivers) {
         for (std::size_t i = 0; i < flat.samples.position_ws.size(); ++i) {
             bool on_plane = false;
             for (const ReceiverPlane& p : found.planes) {
-                on_plane =
-                    on_plane || gn_planar_on_plane(p.plane_ws, found.tolerance, vec3(flat.samples.position_ws[i]),
+                on_plane = on_plane || gn_on_plane(p.plane_ws, found.tolerance, vec3(flat.samples.position_ws[i]),
                                                    vec3(flat.samples.normal_ws[i]));
             }
             if (!on_plane && flat.samples.position_ws[i].w > 0.0F) {

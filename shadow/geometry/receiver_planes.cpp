@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/direct/planar/planar_planes.h"
+#include "shadow/geometry/receiver_planes.h"
 
+#include "gpu/hash.h"
 #include "shadow/scene/clusters.h"
 
 #include <algorithm>
@@ -87,13 +88,13 @@ bool lies_in(const Scene& scene, std::size_t triangle, const Facet& plane, doubl
 
 }  // namespace
 
-ReceiverPlanes receiver_planes(const Scene& scene, const GnPlanarParams& params) {
-    ReceiverPlanes found{.tolerance = params.tolerance * largest_cluster(scene).diagonal()};
+ReceiverPlanes receiver_planes(const Scene& scene, const PlaneSearch& search) {
+    ReceiverPlanes found{.tolerance = search.tolerance * largest_cluster(scene).diagonal()};
     const double tolerance = std::max(static_cast<double>(found.tolerance), 1e-30);
     double total = 0;
     std::vector<Facet> taken;
     for (const Cell& cell :
-         largest_cells(scene, 4.0 * tolerance, 16 + 4 * static_cast<std::size_t>(params.planes), total)) {
+         largest_cells(scene, 4.0 * tolerance, 16 + 4 * static_cast<std::size_t>(search.planes), total)) {
         // A plane whose facets fell into two cells is taken once.
         const auto same = [&](const Facet& plane) { return lies_in(scene, cell.largest, plane, tolerance); };
         if (std::any_of(taken.begin(), taken.end(), same)) {
@@ -114,10 +115,23 @@ ReceiverPlanes receiver_planes(const Scene& scene, const GnPlanarParams& params)
                      [](const ReceiverPlane& a, const ReceiverPlane& b) { return a.share > b.share; });
     found.largest = found.planes.empty() ? 0.0 : found.planes.front().share;
     const auto small = std::find_if(found.planes.begin(), found.planes.end(), [&](const ReceiverPlane& p) {
-        return p.share < static_cast<double>(params.min_area);
+        return p.share < static_cast<double>(search.min_area);
     });
     found.planes.erase(small, found.planes.end());
-    found.planes.resize(std::min(found.planes.size(), static_cast<std::size_t>(params.planes)));
+    found.planes.resize(std::min(found.planes.size(), static_cast<std::size_t>(search.planes)));
+    return found;
+}
+
+std::shared_ptr<const ReceiverPlanes> flat_receivers(const FrameInput& input, const PlaneSearch& search,
+                                                     std::string_view part) {
+    const std::uint64_t key = Hasher().value(search.min_area).value(search.tolerance).value(search.planes).finish().low;
+    auto found = input.derive("receiver planes", key, [&] { return receiver_planes(input.scene, search); });
+    if (found->planes.empty()) {
+        refuse(
+            "{} needs a flat receiver of at least {:.3g} % of the scene's surface, and the largest in '{}' has {:.3g} "
+            "%: lower {}.min_area or take volumes",
+            part, 100.0 * static_cast<double>(search.min_area), input.scene.name, 100.0 * found->largest, part);
+    }
     return found;
 }
 
