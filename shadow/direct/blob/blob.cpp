@@ -63,7 +63,8 @@ Visibility add_blobs(const FrameInput& input, const Recipe& recipe) {
         .constant("GnBlobParams", "params", recipe.of<GnBlobParams>("blob"))
         .constant("int", "count", count);
     const auto shader = compute_once(input.prepared, "blob.comp", hashed(inputs), [&] {
-        return include_line("shadow/scene/light.h") + include_line("shadow/direct/blob/blob.glsl") + inputs.text() + text;
+        return include_line("shadow/scene/light.h") + include_line("shadow/direct/blob/blob.glsl") + inputs.text() +
+               text;
     });
     input.graph.add_pass(
         "blob", [&](PassBuilder& pass) { inputs.declare(pass); },

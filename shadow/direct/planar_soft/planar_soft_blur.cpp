@@ -93,7 +93,8 @@ vec2 light_size(const GnLight& light) {
 vec2 blur_width(const GnLight& light, const GnFlattening& plane, float caster_height) {
     const float light_height = gn_plane_height(plane.plane_ws, plane.light_ws);
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
-        return light_size(light) * (caster_height / light_height);  // on the way to the sun, which climbs so much a metre
+        return light_size(light) *
+               (caster_height / light_height);  // on the way to the sun, which climbs so much a metre
     }
     const float below = std::min(caster_height, 0.9F * light_height);
     return {glsl::gn_planar_soft_width(light_size(light).x, light_height, below),
@@ -120,7 +121,8 @@ void plane_axes(const GnLight& light, vec3 n_ws, vec3& u_ws, vec3& v_ws) {
 }
 
 /// Of what is seen of the plane; unset where nothing is.
-std::optional<Picture> picture_of(const FrameInput& input, const GnFlattening& plane, const GnPlanarSoftParams& params) {
+std::optional<Picture> picture_of(const FrameInput& input, const GnFlattening& plane,
+                                  const GnPlanarSoftParams& params) {
     const GnLight& light = input.light().shape;
     const vec3 n_ws(plane.plane_ws);
     const dvec3 n(n_ws);
@@ -162,7 +164,9 @@ void add_picture_passes(const FrameInput& input, const std::vector<Picture>& pic
                 pass.color(image, Load::clear, {}, one_layer(i));
                 casters.declare(pass);
             },
-            [casters, inputs = casters.inputs(pictures[i].flattening, {})](Recorder& r) { casters.record(r, inputs, 0); });
+            [casters, inputs = casters.inputs(pictures[i].flattening, {})](Recorder& r) {
+                casters.record(r, inputs, 0);
+            });
     }
 }
 
@@ -212,8 +216,7 @@ Visibility add_blurred(const FrameInput& input, const ReceiverPlanes& found, con
                                                                .height = static_cast<std::uint32_t>(params.texels),
                                                                .layers = static_cast<std::uint32_t>(pictures.size())});
     add_picture_passes(input, pictures, sharp);
-    const TextureHandle blurred =
-        add_blur(input, widths, add_blur(input, widths, sharp, ivec2(1, 0)), ivec2(0, 1));
+    const TextureHandle blurred = add_blur(input, widths, add_blur(input, widths, sharp, ivec2(1, 0)), ivec2(0, 1));
 
     // Look each sample up in its plane's picture.
     Visibility result{create_visibility(input.graph, input.samples)};

@@ -47,7 +47,8 @@ TEST(PlanarSoftLaws, a_box_filter_of_any_width_weighs_one) {
 }
 
 TEST(PlanarSoftRendered, accumulation_is_the_trace_of_the_same_points) {
-    GnLight lamp = point({0.3F, 3, -0.4F}), disc = spot({-1, 3.2F, 0.6F}, {0, 0, 0}, 0.9F), day = sun({-0.3F, -1, 0.2F});
+    GnLight lamp = point({0.3F, 3, -0.4F}), disc = spot({-1, 3.2F, 0.6F}, {0, 0, 0}, 0.9F),
+            day = sun({-0.3F, -1, 0.2F});
     lamp.radius = 0.4F;
     disc.radius = 0.4F;
     day.angular_radius = 0.1F;
@@ -79,7 +80,8 @@ TEST(PlanarSoftRendered, accumulation_is_the_trace_of_the_same_points) {
 TEST(PlanarSoftRendered, a_light_without_extent_is_planar) {
     const Scene scene = board_over_ground(point({0.3F, 3, -0.4F}));
     const FrameResult hard = render(scene, direct_recipe(parts::direct_planar()));
-    EXPECT_EQ(render(scene, direct_recipe(parts::direct_planar_soft())).visibility[0].values, hard.visibility[0].values);
+    EXPECT_EQ(render(scene, direct_recipe(parts::direct_planar_soft())).visibility[0].values,
+              hard.visibility[0].values);
     // Of a picture of the plane the same, but for the texels at the rim.
     const FrameResult drop =
         render(scene, direct_recipe(parts::direct_planar_soft(), {{"mode", "blur"}, {"texels", "2048"}}));
@@ -101,8 +103,8 @@ TEST(PlanarSoftRendered, one_caster_of_one_height_has_the_right_drop_shadow) {
     for (std::size_t i = 0; i < c.truth.visibility.size(); ++i) {
         const dvec3 p_ws(c.frame.samples.position_ws[i]);
         if (c.truth.counted[i] != 0 && std::abs(p_ws.y) < 1e-5) {
-            worst = std::max(worst, std::abs(*c.scene.closed_form(0, p_ws) -
-                                             static_cast<double>(c.frame.visibility[0].values[i])));
+            worst = std::max(
+                worst, std::abs(*c.scene.closed_form(0, p_ws) - static_cast<double>(c.frame.visibility[0].values[i])));
         }
     }
     // Two texels of the 15 m that the picture holds, over a penumbra half a metre wide.

@@ -122,13 +122,16 @@ TextureHandle add_picture(const FrameInput& input, const Recipe& recipe, LightVi
 
 Visibility add_projective_texture(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnProjectiveTextureParams>("projective-texture");
-    const auto found =
-        flat_receivers(input, {params.planes, params.min_area, params.tolerance}, "projective-texture");
-    const std::uint64_t key = hashed({}).value(params.planes).value(params.min_area).value(params.tolerance)
-                                  .value(params.flat_share).finish().low;
-    const auto receives = input.derive("receiving objects", key, [&] {
-        return receiving_objects(input.scene, *found, params.flat_share);
-    });
+    const auto found = flat_receivers(input, {params.planes, params.min_area, params.tolerance}, "projective-texture");
+    const std::uint64_t key = hashed({})
+                                  .value(params.planes)
+                                  .value(params.min_area)
+                                  .value(params.tolerance)
+                                  .value(params.flat_share)
+                                  .finish()
+                                  .low;
+    const auto receives = input.derive("receiving objects", key,
+                                       [&] { return receiving_objects(input.scene, *found, params.flat_share); });
     LightViews views = place_views(input, recipe);
     const TextureHandle picture = add_picture(input, recipe, views, *receives);
 
@@ -170,8 +173,9 @@ const Part& direct_projective_texture() {
         p.citation = "SKB92";
         p.needs_scene = true;
         p.params = param_table<GnProjectiveTextureParams>({
-            GN_PARAM(GnProjectiveTextureParams, flat_share, real, 0, 1, "of an object's surface",
-                     "Objects of which less lies in one receiver plane occlude and receive nothing; the others receive."),
+            GN_PARAM(
+                GnProjectiveTextureParams, flat_share, real, 0, 1, "of an object's surface",
+                "Objects of which less lies in one receiver plane occlude and receive nothing; the others receive."),
             GN_PARAM(GnProjectiveTextureParams, planes, integer, 1, 64, "", "More planes make more objects receivers."),
             GN_PARAM(GnProjectiveTextureParams, min_area, real, 0, 1, "of the scene's surface",
                      "Smaller flat parts are no receiver planes."),
