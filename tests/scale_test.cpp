@@ -22,7 +22,9 @@ std::vector<std::string> recipes() {
         all.push_back(std::string("pcf,placement=") + placement);
     }
     for (std::string& recipe : all) {
-        recipe += recipe == "volumes" || recipe == "planar" || recipe == "none" ? "" : ",resolution=256";
+        const Recipe read = load_recipe(recipe);
+        const bool map = read.map != nullptr || (read.direct != nullptr && holds(read.direct->reads, "resolution"));
+        recipe += map ? ",resolution=256" : "";
     }
     return all;
 }
