@@ -108,6 +108,13 @@ Box grown(const Box& box) {
 
 }  // namespace
 
+bool may_shade_view(const Box& box, const GnLight& light, const mat4* cs_from_ws) {
+    const vec4 light_ws = light_point_ws(light);
+    // Around a light inside the box all directions are away from it.
+    const bool inside = light_ws.w > 0.0F && box.contains(vec3(light_ws));
+    return !beyond_light(box, light) && (cs_from_ws == nullptr || inside || !out_of_view(box, light_ws, *cs_from_ws));
+}
+
 bool may_shade_near_plane(const Box& box, vec4 light_ws, const mat4& cs_from_ws) {
     // Two convex bodies are apart if a normal of one's face, or the product of an edge of each, separates them.
     const Box body = grown(box);
@@ -147,8 +154,7 @@ std::uint32_t form_of(const Component& component, const GnLight& light, const Vo
     const Box& box = component.bounds_ws;
     // A light inside the solid meets its surface from within: only the general form is safe there.
     const bool inside = light_ws.w > 0.0F && box.contains(vec3(light_ws));
-    if (options.culling &&
-        (beyond_light(box, light) || (cs_from_ws != nullptr && !inside && out_of_view(box, light_ws, *cs_from_ws)))) {
+    if (options.culling && !may_shade_view(box, light, cs_from_ws)) {
         return GN_VOLUMES_NONE;
     }
     if (!options.closed || !component.closed || inside) {

@@ -73,6 +73,9 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
 /// and nothing is known to lie off its near rectangle.
 std::vector<std::uint32_t> component_forms(std::span<const Component> components, const GnLight& light,
                                            const VolumeOptions& options, const mat4* cs_from_ws);
+/// Whether the shadow of something in the box can fall on what the view sees and the light reaches; `cs_from_ws` null: what the
+/// light reaches anywhere. Never false where it does.
+bool may_shade_view(const Box& box, const GnLight& light, const mat4* cs_from_ws);
 /// Whether the shadow of something in the box can fall on the view's near rectangle; never false where it does.
 bool may_shade_near_plane(const Box& box, vec4 light_ws, const mat4& cs_from_ws);
 /// Turns every triangle to the light and lists the caps.
@@ -83,7 +86,8 @@ void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
 TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers);
 /// Counts how many volumes hold each view sample.
 TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers);
-/// V = 1 where the count is zero and the sample counts for the light.
-Visibility add_count_resolve(const FrameInput& input, TextureHandle counts);
+/// V = 1 where the count is zero and the sample counts for the light; with `masked` also the masked casters hide, by their alpha:
+/// those that VolumeOptions::skip_masked left out.
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, bool masked);
 
 }  // namespace gn

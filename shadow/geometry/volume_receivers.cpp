@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
 // [EK02] The depth that volumes are counted against, and what the count says of a sample.
+#include "shadow/geometry/caster_geometry.h"
+#include "shadow/geometry/masked_tree.h"
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/geometry/volumes.glsl"
 #include "shadow/receiver/sample_pass.h"
@@ -51,7 +53,8 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 p_ws = gbuffer_position_texel(pixel);
     bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
-    visibility = counted && counts_texel(pixel).r == 0.0 ? 1.0 : 0.0;
+    bool seen = counted && counts_texel(pixel).r == 0.0;
+    visibility = seen && !HIDES_MASKED(p_ws.xyz, gbuffer_normal_texel(pixel).xyz) ? 1.0 : 0.0;
 }
 )";
 
@@ -109,7 +112,7 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
     return lifted;
 }
 
-Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, bool masked) {
     const ViewSamples& samples = input.samples;
     const TextureHandle image = input.graph.create(TextureDesc{
         .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
@@ -117,9 +120,19 @@ Visibility add_count_resolve(const FrameInput& input, TextureHandle counts) {
     add_gbuffer(inputs, input.device, samples);
     inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "counts", counts);
     inputs.constant("GnLight", "light", input.whole_light().shape);
+    inputs.constant("vec4", "light_ws", light_point_ws(input.light().shape));
+    const std::optional<MaskedTree> tree = masked ? MaskedTree::of(input) : std::nullopt;
+    if (tree) {
+        tree->add_to(inputs, input);
+    }
     const auto shader = made_once(input.prepared, "volume resolve", hashed(inputs).finish().low, [&] {
-        const std::string text = "#include \"shadow/scene/light.h\"\n" + inputs.text() + resolve_text;
-        return sealed(fullscreen({ShaderKind::fragment, "volume-resolve.frag", text}));
+        const std::string hides =
+            tree ? MaskedTree::functions() + "#define HIDES_MASKED(p_ws, n_ws) masked_hides(p_ws, n_ws, u.light_ws)\n"
+                 : "#define HIDES_MASKED(p_ws, n_ws) false\n";
+        return sealed(
+            fullscreen({ShaderKind::fragment, "volume-resolve.frag",
+                        std::string("#include \"shadow/scene/light.h\"\n") +
+                            (tree ? MaskedTree::types(input.device) : "") + inputs.text() + hides + resolve_text}));
     });
     input.graph.add_pass(
         "volumes: resolve",

@@ -19,7 +19,7 @@ VolumeOptions options_of(const GnVolumesParams& params) {
     constexpr std::array modes{VolumeMode::behind, VolumeMode::before, VolumeMode::capped, VolumeMode::cheapest};
     return {.mode = modes.at(static_cast<std::size_t>(params.mode)),
             .every_side = params.extrude == GN_VOLUMES_BRUTE_FORCE,
-            .skip_masked = params.masked == GN_VOLUMES_SKIP,
+            .skip_masked = params.masked != GN_VOLUMES_OPAQUE,
             .closed = params.closed != 0,
             .culling = params.culling != 0};
 }
@@ -31,7 +31,7 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     add_silhouettes(input, buffers);
     const TextureHandle receivers = add_receivers(input, buffers);
     const TextureHandle counts = add_counts(input, buffers, receivers);
-    return add_count_resolve(input, counts);
+    return add_count_resolve(input, counts, params.masked == GN_VOLUMES_EXACT);
 }
 
 std::string remark(const Scene& scene, const Recipe& recipe) {
@@ -44,14 +44,12 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         masked = masked || (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr));
     }
-    if (masked) {
+    if (masked && params.masked != GN_VOLUMES_EXACT) {
         said += said.empty() ? "" : "; ";
         said +=
             params.masked == GN_VOLUMES_OPAQUE
-                ? "volumes cannot see alpha: the masked polygons of this scene cast as a whole (volumes.masked=skip "
-                  "leaves them out)"
-                : "volumes cannot see alpha: the masked polygons of this scene cast nothing (volumes.masked=opaque "
-                  "casts them whole)";
+                ? "volumes.masked=opaque: the masked polygons of this scene cast as a whole (exact reads their alpha)"
+                : "volumes.masked=skip: the masked polygons of this scene cast nothing (exact reads their alpha)";
     }
     return said;
 }
@@ -77,8 +75,11 @@ const Part& direct_volumes() {
             GN_CHOICE(GnVolumesParams, extrude,
                       "Volumes of silhouettes, or of every triangle by itself: the same picture, many times the fill.",
                       "silhouette", "brute-force"),
-            GN_CHOICE(GnVolumesParams, masked,
-                      "Volumes cannot see alpha: a masked polygon casts as a whole, or not at all.", "opaque", "skip"),
+            GN_CHOICE(
+                GnVolumesParams, masked,
+                "Masked polygons: asked for their alpha by each sample that they may hide, whole (cheaper), or not "
+                "at all.",
+                "exact", "opaque", "skip"),
             GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
                      "Solids cast with the half of their surface that light meets first; off counts every triangle."),
             GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",

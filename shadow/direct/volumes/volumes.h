@@ -12,13 +12,14 @@
 #define GN_VOLUMES_SILHOUETTE 0
 #define GN_VOLUMES_BRUTE_FORCE 1
 
-#define GN_VOLUMES_OPAQUE 0
-#define GN_VOLUMES_SKIP 1
+#define GN_VOLUMES_EXACT 0
+#define GN_VOLUMES_OPAQUE 1
+#define GN_VOLUMES_SKIP 2
 
 struct GnVolumesParams {
     int mode GN_DEFAULT(GN_VOLUMES_AUTO);           ///< on which side of the sample volumes are counted
     int extrude GN_DEFAULT(GN_VOLUMES_SILHOUETTE);  ///< sides of silhouettes, or of every triangle
-    int masked GN_DEFAULT(GN_VOLUMES_OPAQUE);       ///< alpha-masked casters: whole polygons, or nothing
+    int masked GN_DEFAULT(GN_VOLUMES_EXACT);        ///< alpha-masked casters: their texels, whole polygons, or nothing
     int closed GN_DEFAULT(1);                       ///< 1: a solid casts with one side of its surface only
     int culling GN_DEFAULT(1);                      ///< 1: components whose shadow cannot be seen are left out
 };

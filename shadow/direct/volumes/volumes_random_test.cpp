@@ -38,7 +38,8 @@ Scene random_scene(unsigned kind, unsigned seed) {
     }
     for (int i = 0; i < 10 && kind == 3; ++i) {
         const vec3 o = place();
-        b.mesh({o, o + any(), o + any(), o + any(), o + any(), o + any()}, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {0, 5, 1}});
+        b.mesh({o, o + any(), o + any(), o + any(), o + any(), o + any()},
+               {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {0, 5, 1}});
     }
     for (int i = 0; i < 10 && kind == 4; ++i) {
         const vec3 o = place();
@@ -59,10 +60,11 @@ TEST_P(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
     std::size_t lit = 0, shadowed = 0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
         const char* modes[] = {"auto", "z-fail", "zp+"};
-        const Recipe recipe = direct_recipe(parts::direct_volumes(),
-                                            {{"closed", seed % 2 == 0 ? "1" : "0"}, {"mode", modes[seed % 3]}});
+        const Recipe recipe =
+            direct_recipe(parts::direct_volumes(), {{"closed", seed % 2 == 0 ? "1" : "0"}, {"mode", modes[seed % 3]}});
         for (const Comparison& result : render_and_judge(random_scene(GetParam(), seed), recipe, 120, 90)) {
-            EXPECT_EQ(result.wrong, 0U) << "seed " << seed << ", " << modes[seed % 3] << ", " << result.judged << " judged: " << result.first;
+            EXPECT_EQ(result.wrong, 0U) << "seed " << seed << ", " << modes[seed % 3] << ", " << result.judged
+                                        << " judged: " << result.first;
             lit += result.lit;
             shadowed += result.shadowed;
         }

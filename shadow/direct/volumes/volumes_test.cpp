@@ -408,6 +408,39 @@ TEST(VolumesMasked, a_masked_quad_casts_as_a_whole_or_not_at_all) {
     EXPECT_EQ(dark["skip"], 0U);
 }
 
+TEST(VolumesMasked, each_sample_is_decided_by_the_texel_that_its_ray_meets) {
+    // Loose cards with holes of all kinds of wrapping, some with one side only, over a ground that shows what they let through.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+    SceneBuilder b;
+    b.ground(10).box({-1, 0, -1}, {1, 0.7F, 1});
+    std::array<int, 4> materials{};
+    for (int i = 0; i < 4; ++i) {
+        Texture holes{.name = "holes", .image = {8, 4, {}}, .repeat_u = i % 2 == 0, .repeat_v = i < 2};
+        for (int texel = 0; texel < 32; ++texel) {
+            const auto alpha = static_cast<std::uint8_t>(127.5F + 127.5F * unit(random));
+            holes.image.rgba.insert(holes.image.rgba.end(), {255, 255, 255, alpha});
+        }
+        Material leaf{
+            .name = "leaf", .alpha_mode = i == 3 ? AlphaMode::blend : AlphaMode::mask, .double_sided = i != 1};
+        leaf.alpha_cutoff = 0.4F;
+        materials[static_cast<std::size_t>(i)] = b.material(leaf, &holes);
+    }
+    for (int i = 0; i < 60; ++i) {
+        const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
+        const vec3 o = vec3(0, 1.8F, 0) + vec3(2.5F, 1, 2.5F) * any(), x = 0.8F * any(), y = 0.8F * any();
+        b.mesh({o, o + x, o + x + y, o + y}, {{0, 1, 2}, {0, 2, 3}}, materials[static_cast<std::size_t>(i % 4)],
+               {{-0.7F, -0.3F}, {1.6F, 0}, {1.9F, 1.4F}, {0, 1}});
+    }
+    b.camera({4, 3.3F, 5.2F}, {0.2F, 0.6F, 0});
+    b.light(sun({-0.4F, -1, 0.33F})).light(point({2.3F, 4.1F, 0.7F})).light(spot({-3, 4, 1.2F}, {0, 0.3F, 0}, 0.6F));
+    for (const Comparison& result : render_and_judge(b.scene(), direct_recipe(parts::direct_volumes()), 160, 120)) {
+        EXPECT_EQ(result.wrong, 0U) << result.judged << " judged: " << result.first;
+        EXPECT_GT(result.lit, 300U);
+        EXPECT_GT(result.shadowed, 200U);
+    }
+}
+
 TEST(VolumesNested, hundreds_of_volumes_over_a_sample_are_shadow) {
     // Sheets above each other: every one hides the light from the ground once more. 256 and 512 are 0 in eight bits.
     for (const int sheets : {255, 256, 257, 512, 1100}) {
