@@ -20,29 +20,26 @@ struct Builder {
     std::vector<std::uint32_t> order;  // such places
     TriangleTree tree;
 
-    void node(std::size_t at, std::uint32_t first, std::uint32_t count) {
+    void node(std::uint32_t first, std::uint32_t count) {
         Box box, centres;
         for (std::uint32_t i = first; i < first + count; ++i) {
             box.grow(boxes[order[i]].min);
             box.grow(boxes[order[i]].max);
             centres.grow(middles[order[i]]);
         }
-        const vec3 slack = vec3(1e-6F) * glm::max(glm::abs(box.min), glm::abs(box.max)) + 1e-5F * (box.max - box.min);
-        tree.nodes[at] = {box.min - slack, first, box.max + slack, count};
-        if (count <= leaf_triangles) {
-            return;
+        const vec3 slack = 1e-6F * glm::max(glm::abs(box.min), glm::abs(box.max)) + 1e-5F * (box.max - box.min);
+        const std::size_t at = tree.nodes.size();
+        tree.nodes.push_back({box.min - slack, 0, box.max + slack, count <= leaf_triangles ? first * 8 + count : 0});
+        if (count > leaf_triangles) {
+            const vec3 size = centres.max - centres.min;
+            const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+            const std::uint32_t half = count / 2;
+            std::nth_element(order.begin() + first, order.begin() + first + half, order.begin() + first + count,
+                             [&](std::uint32_t a, std::uint32_t b) { return middles[a][axis] < middles[b][axis]; });
+            node(first, half);
+            node(first + half, count - half);
         }
-        const vec3 size = centres.max - centres.min;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const std::uint32_t half = count / 2;
-        std::nth_element(order.begin() + first, order.begin() + first + half, order.begin() + first + count,
-                         [&](std::uint32_t a, std::uint32_t b) { return middles[a][axis] < middles[b][axis]; });
-        const std::size_t children = tree.nodes.size();
-        tree.nodes.resize(children + 2);
-        tree.nodes[at].first = static_cast<std::uint32_t>(children);
-        tree.nodes[at].count = 0;
-        node(children, first, half);
-        node(children + 1, first + half, count - half);
+        tree.nodes[at].behind = static_cast<std::uint32_t>(tree.nodes.size());
     }
 };
 
@@ -68,8 +65,7 @@ TriangleTree build_tree(std::span<const vec3> positions_ws, std::span<const uvec
         builder.middles.push_back(box.centre());
     }
     if (!triangles.empty()) {
-        builder.tree.nodes.emplace_back();
-        builder.node(0, 0, static_cast<std::uint32_t>(triangles.size()));
+        builder.node(0, static_cast<std::uint32_t>(triangles.size()));
     }
     for (const std::uint32_t i : builder.order) {
         builder.tree.triangles.push_back(triangles[i]);
@@ -172,8 +168,9 @@ void MaskedTree::add_to(ShaderInputs& inputs, const FrameInput& input) const {
 std::string MaskedTree::types(const Device& device) {
     return std::string(device.has(Feature::shader_float64) ? "#define GN_VOLUMES_DOUBLE\n" : "") +
            "#include \"shadow/geometry/triangle.glsl\"\n"
-           "struct MaskedNode { vec3 low_ws; uint first; vec3 high_ws; uint count; };\n"
-           "struct MaskedMaterial { uint first; uint width; uint height; uint ways; float base_alpha; float cutoff; };\n";
+           "struct MaskedNode { vec3 low_ws; uint behind; vec3 high_ws; uint held; };\n"
+           "struct MaskedMaterial { uint first; uint width; uint height; uint ways; float base_alpha; float cutoff; "
+           "};\n";
 }
 
 std::string MaskedTree::functions() {

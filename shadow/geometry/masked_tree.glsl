@@ -43,26 +43,22 @@ bool masked_hides(vec3 p_ws, vec3 n_ws, vec4 light_ws) {
     vec3 way = light_ws.xyz - p_ws * light_ws.w;
     vec3 each = 1.0 / mix(way, vec3(1.0e-30), equal(way, vec3(0.0)));
     float end = light_ws.w > 0.0 ? 1.00001 : 1.0e30;
-    uint waiting[32];
-    int count = 1;
-    waiting[0] = 0u;
-    while (count > 0) {
-        MaskedNode node = masked_nodes[waiting[--count]];
+    uint at = 0u, nodes = masked_nodes[0].behind;
+    while (at < nodes) {
+        MaskedNode node = masked_nodes[at];
         vec3 a = (node.low_ws - p_ws) * each, b = (node.high_ws - p_ws) * each;
         vec3 enter = min(a, b), leave = max(a, b);
         if (max(max(enter.x, enter.y), max(enter.z, 0.0)) > min(min(leave.x, leave.y), min(leave.z, end))) {
+            at = node.behind;
             continue;
         }
-        if (node.count == 0u) {
-            waiting[count++] = node.first;
-            waiting[count++] = node.first + 1u;
-            continue;
-        }
-        for (uint i = 0u; i < node.count; ++i) {
-            if (masked_triangle_hides(masked_items[node.first + i], p_ws, n_ws, light_ws)) {
+        uint first = node.held >> 3, count = node.held & 7u;
+        for (uint i = 0u; i < count; ++i) {
+            if (masked_triangle_hides(masked_items[first + i], p_ws, n_ws, light_ws)) {
                 return true;
             }
         }
+        ++at;
     }
     return false;
 }

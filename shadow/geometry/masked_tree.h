@@ -11,20 +11,22 @@
 
 namespace gn {
 
-/// A box and what is in it.
+/// A box and what is in it. A node's first half follows it, so that a ray needs no memory: where it misses the box, and after a
+/// leaf, it goes on behind all that the box holds.
 struct TreeNode {
-    vec3 low_ws{0};           ///< grown by what rounding moves a ray
-    std::uint32_t first = 0;  ///< of its triangles, or of its two nodes, which follow each other
+    vec3 low_ws{0};            ///< grown by what rounding moves a ray
+    std::uint32_t behind = 0;  ///< the node behind all that it holds; the number of nodes at the end
     vec3 high_ws{0};
-    std::uint32_t count = 0;  ///< of its triangles; 0: it holds nodes
+    std::uint32_t held = 0;  ///< of leaves: the first of its triangles times 8, plus their number; else 0
 };
 struct TriangleTree {
-    std::vector<TreeNode> nodes;            ///< the root first; empty where there is no triangle
+    std::vector<TreeNode> nodes;           ///< the root first; empty where there is no triangle
     std::vector<std::uint32_t> triangles;  ///< in the order of the leaves
 };
 /// Halves the triangles by their middles along the widest axis until four are left. Less deep than 32 for any scene that fits
 /// 32-bit indices.
-TriangleTree build_tree(std::span<const vec3> positions_ws, std::span<const uvec3> all, std::vector<std::uint32_t> triangles);
+TriangleTree build_tree(std::span<const vec3> positions_ws, std::span<const uvec3> all,
+                        std::vector<std::uint32_t> triangles);
 
 /// The masked casters of the input's light, made once a geometry; nothing where there is none.
 class MaskedTree {
