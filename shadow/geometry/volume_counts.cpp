@@ -41,7 +41,7 @@ void main() {
 
 // A compared cap's vertex: of the near cap and of the far one, or on the near plane.
 constexpr const char* compared_text = R"(
-layout(constant_id = 3) const int BEFORE = 0;
+layout(constant_id = 3) const int LISTED_BEFORE = 0;
 layout(constant_id = 4) const int ON_NEAR = 0;
 layout(location = 0) flat out int turned;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
@@ -50,7 +50,7 @@ void main() {
     uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
     uint slot = uint(gl_VertexIndex) / corners;
     uint corner = uint(gl_VertexIndex) % corners;
-    uint cap = caps[BEFORE != 0 ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot];
+    uint cap = caps[LISTED_BEFORE != 0 ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot];
     uint t = cap >> 1;
     turned = int(cap & 1u);
     // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
@@ -81,7 +81,7 @@ void main() {
 constexpr const char* count_text = R"(
 layout(constant_id = 1) const int TURNED = 0;
 layout(constant_id = 2) const int FAR = 0;
-layout(constant_id = 3) const int BEFORE = 0;
+layout(constant_id = 5) const int BEFORE = 0;
 layout(location = 0) out float count;
 void main() {
     count = (gl_FrontFacing == (TURNED == FAR)) == (BEFORE != 0) ? 1.0 : -1.0;
@@ -89,7 +89,7 @@ void main() {
 )";
 
 constexpr const char* compared_count_text = R"(
-layout(constant_id = 3) const int BEFORE = 0;
+layout(constant_id = 5) const int BEFORE = 0;
 layout(location = 0) flat in int turned;
 layout(location = 0) out float count;
 void main() {
@@ -103,99 +103,156 @@ layout(location = 0) out float count;
 void main() { count = 1.0; }
 )";
 
-enum Way : std::uint32_t { turned_constant = 1, far_constant = 2, before_constant = 3, on_near_constant = 4 };
+constexpr const char* mark_text = R"(
+void main() {
+    if (!volume_marked(ivec2(gl_FragCoord.xy))) {
+        discard;
+    }
+}
+)";
 
-/// A pipeline that adds to the count. Behind: what lies at or behind the sample; depth is reversed, so that this is
-/// LESS_OR_EQUAL, and before it is all else (volumes.md derives both).
-struct CountShader {
-    std::string_view name;
-    std::string_view body;
-    const char* count;
-    VkCompareOp compare;
-    SpecConstants constants;
+enum Constant : std::uint32_t { is_turned = 1, is_far = 2, listed_before = 3, on_near = 4, counts_before = 5 };
+
+/// Which samples a step counts at.
+enum class At { all, marked, unmarked };
+
+/// One draw, or with `indexed` those of opaque caps, from words of the buffer of draws.
+struct Step {
+    RasterDesc pipeline;
+    std::uint32_t word = 0;
     bool indexed = false;
+    std::uint32_t mark = 0;  ///< what the stencil holds where it counts, if it is asked
 };
 
-RasterDesc count_pipeline(const ShaderInputs& inputs, const CountShader& shader) {
-    RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, std::string(shader.name), volume_shader(inputs, shader.body)};
-    desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", shader.count};
-    desc.constants = shader.constants;
-    desc.blend = Blend::add;
-    desc.depth_test = desc.depth_clamp = true;
-    desc.depth_compare = shader.compare;
-    if (shader.indexed) {
-        desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
-        desc.vertex_stride = sizeof(vec3);
+StencilOps stencil(VkCompareOp compare, VkStencilOp pass) {
+    const VkStencilOpState state{.failOp = VK_STENCIL_OP_KEEP,
+                                 .passOp = pass,
+                                 .depthFailOp = VK_STENCIL_OP_KEEP,
+                                 .compareOp = compare,
+                                 .compareMask = 0xFF,
+                                 .writeMask = 0xFF,
+                                 .reference = 0};
+    return {state, state};
+}
+
+/// Lists of steps for one shader's inputs. Behind: what lies at or behind the sample counts; depth is reversed, so that this is
+/// LESS_OR_EQUAL, and before it is all else (volumes.md derives both).
+class Steps {
+  public:
+    explicit Steps(const ShaderInputs& inputs) : inputs_(inputs) {}
+
+    /// The sides and the compared caps of one list, counted before the samples or behind them.
+    void add_compared(std::uint32_t listed, bool before, At at) {
+        const VkCompareOp compare = before ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS_OR_EQUAL;
+        const SpecConstants constants{{listed_before, listed}, {counts_before, before ? 1U : 0U}};
+        add({"volume-side.vert", side_body, count_text, compare, constants}, sides_draw + 4 * listed, at);
+        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants},
+            compared_draw + 4 * listed, at);
     }
+    /// The opaque caps of one list: no sample is behind them, so that they always count.
+    void add_caps(std::uint32_t listed, bool far_caps, At at) {
+        for (std::uint32_t turned = 0; turned < 2; ++turned) {
+            for (std::uint32_t far = 0; far < (far_caps ? 2U : 1U); ++far) {
+                add({"volume-cap.vert",
+                     opaque_text,
+                     count_text,
+                     VK_COMPARE_OP_ALWAYS,
+                     {{is_turned, turned}, {is_far, far}},
+                     true},
+                    opaque_draw + 5 * listed + 10 * turned, at);
+            }
+        }
+    }
+    /// What closes the volumes of the second list at the near plane.
+    void add_near_ends(At at) {
+        for (std::uint32_t turned = 0; turned < 2; ++turned) {
+            add({"volume-cap-near.vert", opaque_near_text, near_count_text, VK_COMPARE_OP_ALWAYS, {}, true},
+                opaque_draw + 5 + 10 * turned, at);
+        }
+        add({"volume-compared.vert",
+             compared_text,
+             near_count_text,
+             VK_COMPARE_OP_ALWAYS,
+             {{listed_before, 1}, {on_near, 1}}},
+            compared_draw + 4, at);
+    }
+    std::vector<Step> list;
+
+  private:
+    struct Shader {
+        std::string_view name;
+        std::string_view body;
+        const char* count;
+        VkCompareOp compare;
+        SpecConstants constants;
+        bool indexed = false;
+    };
+    void add(const Shader& shader, std::uint32_t word, At at) {
+        RasterDesc desc;
+        desc.vertex = {ShaderKind::vertex, std::string(shader.name), volume_shader(inputs_, shader.body)};
+        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", shader.count};
+        desc.constants = shader.constants;
+        desc.blend = Blend::add;
+        desc.depth_test = desc.depth_clamp = true;
+        desc.depth_compare = shader.compare;
+        if (at != At::all) {
+            desc.stencil = stencil(VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP);
+        }
+        if (shader.indexed) {
+            desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
+            desc.vertex_stride = sizeof(vec3);
+        }
+        list.push_back({sealed(std::move(desc)), word, shader.indexed, at == At::marked ? 1U : 0U});
+    }
+
+    const ShaderInputs& inputs_;
+};
+
+std::vector<Step> steps_of(const ShaderInputs& inputs, VolumeMode mode, bool far_caps, bool alone) {
+    Steps steps(inputs);
+    const At at = alone ? At::marked : At::all;
+    // What is listed as behind the samples, in any mode.
+    steps.add_compared(0, false, at);
+    steps.add_caps(0, far_caps, at);
+    // What is listed as before them.
+    if (mode == VolumeMode::split) {
+        steps.add_compared(1, true, At::marked);
+        steps.add_compared(1, false, At::unmarked);
+        steps.add_caps(1, far_caps, At::unmarked);
+        return std::move(steps.list);
+    }
+    steps.add_compared(1, true, at);
+    if (mode == VolumeMode::capped) {
+        steps.add_near_ends(at);
+    }
+    return std::move(steps.list);
+}
+
+RasterDesc mark_pipeline(const VolumeMarks& marks, const ShaderInputs& inputs) {
+    RasterDesc desc =
+        fullscreen({ShaderKind::fragment, "volume-mark.frag", marks.types + inputs.text() + marks.text + mark_text});
+    desc.color_mask = 0;
+    desc.stencil = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE);
     return sealed(std::move(desc));
 }
 
-/// What counts: sides and compared caps, behind the sample and before it; opaque caps, by whether they are turned over; and what
-/// closes volumes at the near plane.
-struct CountPipelines {
-    std::array<RasterDesc, 2> sides, compared, near, far;
-    RasterDesc opaque_on_near, compared_on_near;
-};
-
-CountPipelines count_pipelines(const ShaderInputs& inputs, bool capped) {
-    CountPipelines made;
-    for (std::uint32_t i = 0; i < 2; ++i) {
-        const VkCompareOp compare = i == 0 ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_GREATER;
-        made.sides[i] =
-            count_pipeline(inputs, {"volume-side.vert", side_body, count_text, compare, {{before_constant, i}}});
-        made.compared[i] = count_pipeline(
-            inputs, {"volume-compared.vert", compared_text, compared_count_text, compare, {{before_constant, i}}});
-        // Opaque caps always count.
-        const auto opaque = [&](std::uint32_t far) {
-            return count_pipeline(inputs, {"volume-cap.vert",
-                                           opaque_text,
-                                           count_text,
-                                           VK_COMPARE_OP_ALWAYS,
-                                           {{turned_constant, i}, {far_constant, far}},
-                                           true});
-        };
-        made.near[i] = opaque(0);
-        made.far[i] = opaque(1);
-    }
-    if (capped) {
-        made.opaque_on_near = count_pipeline(
-            inputs, {"volume-cap-near.vert", opaque_near_text, near_count_text, VK_COMPARE_OP_ALWAYS, {}, true});
-        made.compared_on_near = count_pipeline(inputs, {"volume-compared.vert",
-                                                        compared_text,
-                                                        near_count_text,
-                                                        VK_COMPARE_OP_ALWAYS,
-                                                        {{before_constant, 1}, {on_near_constant, 1}}});
-    }
-    return made;
-}
-
-VkDeviceSize at(std::uint32_t word) {
-    return word * sizeof(std::uint32_t);
-}
-
-void draw_near_ends(Recorder& r, const CountPipelines& pipelines, BufferHandle draws) {
-    r.bind(pipelines.opaque_on_near);
-    r.draw_indexed_indirect(draws, at(opaque_draw));
-    r.draw_indexed_indirect(draws, at(opaque_draw + 5));
-    r.bind(pipelines.compared_on_near);
-    r.draw_indirect(draws, at(compared_draw + 4));
-}
-
-void draw_opaque_caps(Recorder& r, const CountPipelines& pipelines, BufferHandle draws, bool far_caps) {
-    for (std::uint32_t turned = 0; turned < 2; ++turned) {
-        r.bind(pipelines.near[turned]);
-        r.draw_indexed_indirect(draws, at(opaque_draw + 5 * turned));
-        if (far_caps) {
-            r.bind(pipelines.far[turned]);
-            r.draw_indexed_indirect(draws, at(opaque_draw + 5 * turned));
+void draw(Recorder& r, const std::vector<Step>& steps, BufferHandle draws) {
+    for (const Step& step : steps) {
+        r.bind(step.pipeline);
+        r.stencil_reference(step.mark);
+        const VkDeviceSize at = step.word * sizeof(std::uint32_t);
+        if (step.indexed) {
+            r.draw_indexed_indirect(draws, at);
+        } else {
+            r.draw_indirect(draws, at);
         }
     }
 }
 
 }  // namespace
 
-TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers) {
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                         const VolumeMarks* marks) {
     const TextureHandle counts = input.graph.create(TextureDesc{.name = "volume counts",
                                                                 .format = VK_FORMAT_R32_SFLOAT,
                                                                 .width = input.samples.width,
@@ -204,36 +261,42 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
     inputs.buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
         .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);
-    const bool capped = buffers.frame.capped != 0;
-    const auto pipelines = made_once(input.prepared, "volume counts", hashed(inputs).value(capped).finish().low,
-                                     [&] { return count_pipelines(inputs, capped); });
+    const bool far_caps = gn_volumes_has_far_cap(buffers.frame), alone = marks != nullptr && marks->alone;
+    const std::uint64_t key = hashed(inputs).value(buffers.mode).value(far_caps).value(alone).finish().low;
+    const auto steps = made_once(input.prepared, "volume counts", key,
+                                 [&] { return steps_of(inputs, buffers.mode, far_caps, alone); });
+    std::shared_ptr<const RasterDesc> mark;
+    if (marks != nullptr) {
+        mark = made_once(input.prepared, "volume marks", hashed(marks->inputs).text(marks->text).finish().low,
+                         [&] { return mark_pipeline(*marks, marks->inputs); });
+    }
     input.graph.add_pass(
         "volumes: counts",
         [&](PassBuilder& pass) {
             pass.color(counts, Load::clear);
-            pass.depth_read_only(receivers);
+            pass.depth_read_only(receivers, {0, 1, 0, 1},
+                                 marks != nullptr ? std::optional<std::uint32_t>(0) : std::nullopt);
             inputs.declare(pass);
+            if (marks != nullptr) {
+                marks->inputs.declare(pass);
+            }
             pass.vertices(input.handles.positions);
             pass.indices(buffers.indices);
             pass.indirect(buffers.draws);
         },
-        [inputs, pipelines, capped, draws = buffers.draws, indices = buffers.indices,
-         far_caps = gn_volumes_has_far_cap(buffers.frame), positions = input.handles.positions](Recorder& r) {
-            r.bind(pipelines->sides[0]);
+        [inputs, steps, mark, marking = marks != nullptr ? marks->inputs : ShaderInputs(), draws = buffers.draws,
+         indices = buffers.indices, positions = input.handles.positions](Recorder& r) {
+            if (mark != nullptr) {
+                r.bind(*mark);
+                r.stencil_reference(1);
+                marking.set(r);
+                r.draw(3);
+            }
+            r.bind(steps->front().pipeline);
             inputs.set(r);
             r.vertex_buffer(positions);
             r.index_buffer(indices);
-            for (std::uint32_t before = 0; before < 2; ++before) {
-                r.bind(pipelines->sides[before]);
-                r.draw_indirect(draws, at(sides_draw + 4 * before));
-                r.bind(pipelines->compared[before]);
-                r.draw_indirect(draws, at(compared_draw + 4 * before));
-            }
-            if (capped) {
-                draw_near_ends(r, *pipelines, draws);
-            } else {
-                draw_opaque_caps(r, *pipelines, draws, far_caps);
-            }
+            draw(r, *steps, draws);
         });
     return counts;
 }

@@ -171,8 +171,9 @@ std::uint32_t side_of(const Component& component, const GnLight& light, VolumeMo
     }
     const bool held =
         cs_from_ws == nullptr || may_shade_near_plane(component.bounds_ws, light_point_ws(light), *cs_from_ws);
+    // Split volumes are counted on both sides, each at other samples.
     if (!held) {
-        return GN_VOLUMES_BEFORE;
+        return mode == VolumeMode::split ? GN_VOLUMES_BEFORE | GN_VOLUMES_CAPPED : GN_VOLUMES_BEFORE;
     }
     return mode == VolumeMode::capped ? GN_VOLUMES_BEFORE | GN_VOLUMES_CAPPED : 0;
 }

@@ -20,10 +20,11 @@ constexpr const char* facing_text = R"(
 layout(local_size_x = 64) in;
 void main() {
     uint t = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-    // One instance of each draw; the second list of opaque caps begins where the first must end.
+    // One instance of each draw; of opaque caps those turned over have the second half of their list.
     if (t == 0u) {
-        draws[1] = draws[5] = draws[9] = draws[13] = draws[17] = draws[21] = draws[25] = draws[30] = 1u;
-        draws[31] = 3u * u.frame.opaque_triangles;
+        draws[1] = draws[5] = draws[9] = draws[13] = draws[17] = draws[21] = 1u;
+        draws[25] = draws[30] = draws[35] = draws[40] = 1u;
+        draws[36] = 3u * u.frame.opaque_triangles;
     }
     if (t >= u.frame.triangles) {
         return;
@@ -49,7 +50,9 @@ void main() {
         if (before && (form & uint(GN_VOLUMES_CAPPED)) == 0u) {
             return;
         }
-        uint first = atomicAdd(draws[m < 0 ? 29 : 24], 3u) + (m < 0 ? 3u * u.frame.opaque_triangles : 0u);
+        uint most = 3u * u.frame.opaque_triangles;
+        uint slot = atomicAdd(draws[24u + (before ? 5u : 0u) + (m < 0 ? 10u : 0u)], 3u);
+        uint first = (m < 0 ? most : 0u) + (before ? most - 3u - slot : slot);
         cap_indices[first] = corners.x;
         cap_indices[first + 1u] = corners.y;
         cap_indices[first + 2u] = corners.z;
@@ -66,6 +69,11 @@ constexpr const char* silhouette_text = R"(
 layout(local_size_x = 64) in;
 void main() {
     uint edge = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+    // Lists that grow from their end begin where they stopped.
+    if (edge == 0u) {
+        draws[31] = 3u * u.frame.opaque_triangles - draws[29];
+        draws[41] = 6u * u.frame.opaque_triangles - draws[39];
+    }
     if (edge >= u.frame.edges) {
         return;
     }
@@ -190,6 +198,7 @@ std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool sk
 VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions& options) {
     FrameGraph& graph = input.graph;
     VolumeBuffers buffers{.scene = edge_buffers(input, options.skip_masked)};
+    buffers.mode = options.mode;
     const EdgeBuffers& scene = *buffers.scene;
     graph.hold(buffers.scene);
     buffers.edges = graph.import(scene.edges);

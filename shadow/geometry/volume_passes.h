@@ -21,14 +21,14 @@ struct EdgeBuffers {
 };
 
 /// The draws of a light, in words of the buffer `draws`. Sides, their strips and the compared caps (masked and one-sided
-/// ones) have a VkDrawIndirectCommand for what counts behind the sample and, 4 words on, for what counts before it; opaque caps
-/// a VkDrawIndexedIndirectCommand by sign, 5 words apart.
+/// ones) have a VkDrawIndirectCommand for what is listed as behind the sample and, 4 words on, for what is listed as before it;
+/// opaque caps a VkDrawIndexedIndirectCommand for each, 5 words apart, and again 10 words on for those turned over.
 enum VolumeDraw : std::uint32_t {
     sides_draw = 0,
     strips_draw = 8,
     compared_draw = 16,
     opaque_draw = 24,
-    draw_words = 34
+    draw_words = 44
 };
 
 /// On which side of the samples volumes are counted.
@@ -37,6 +37,15 @@ enum class VolumeMode {
     before,    ///< z-pass: right where the near rectangle lies in no volume
     capped,    ///< zp+: z-pass, and volumes that may hold part of the near rectangle are closed there
     cheapest,  ///< z-pass for each component whose volumes cannot hold part of the near rectangle, z-fail for the others
+    split,     ///< of those components z-pass at marked samples and z-fail at the others; z-fail for the others at all
+};
+
+/// Samples that are told apart: GLSL of `bool volume_marked(ivec2 pixel)` and what it reads.
+struct VolumeMarks {
+    std::string types;  ///< GLSL before the declarations
+    ShaderInputs inputs;
+    std::string text;
+    bool alone = false;  ///< only marked samples are counted, in any mode but split
 };
 
 /// What a part asks of its volumes.
@@ -50,7 +59,8 @@ struct VolumeOptions {
 
 struct VolumeBuffers {
     std::shared_ptr<const EdgeBuffers> scene;  ///< the graph holds it
-    std::vector<std::uint32_t> forms;          ///< per component: GN_VOLUMES_*
+    VolumeMode mode = VolumeMode::behind;
+    std::vector<std::uint32_t> forms;  ///< per component: GN_VOLUMES_*
     GnVolumesFrame frame;
     BufferHandle edges, first, around, owners;
     BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1, + 4 where it is not 0 and counts before the sample
@@ -83,11 +93,17 @@ void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
 /// Sums the triangles around every edge and lists the sides.
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
 /// A depth of its own: the view samples' depth, lifted where a sample touches the edge of a volume.
-TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers);
-/// Counts how many volumes hold each view sample.
-TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers);
-/// V = 1 where the count is zero and the sample counts for the light; with `masked` also the masked casters hide, by their alpha:
-/// those that VolumeOptions::skip_masked left out.
-Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, bool masked);
+/// With a stencil where samples are to be marked.
+TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers, bool marks = false);
+/// Counts how many volumes hold each view sample. `marks` null: all are alike.
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                         const VolumeMarks* marks = nullptr);
+/// How a count becomes V.
+struct CountResolve {
+    bool masked = false;    ///< masked casters hide too, by their alpha: those that VolumeOptions::skip_masked left out
+    TextureHandle known{};  ///< V of samples that are decided already, above 1 where they are not; invalid: none is
+};
+/// V = 1 where the count is zero and the sample counts for the light.
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, const CountResolve& resolve);
 
 }  // namespace gn

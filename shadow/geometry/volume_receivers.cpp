@@ -53,6 +53,10 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 p_ws = gbuffer_position_texel(pixel);
     bool counted = p_ws.w > 0.0 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
+    if (KNOWN_V(pixel) <= 1.0) {
+        visibility = KNOWN_V(pixel);
+        return;
+    }
     bool seen = counted && counts_texel(pixel).r == 0.0;
     visibility = seen && !HIDES_MASKED(p_ws.xyz, gbuffer_normal_texel(pixel).xyz) ? 1.0 : 0.0;
 }
@@ -83,10 +87,13 @@ ReceiverPipelines receiver_pipelines(const ShaderInputs& inputs) {
 
 }  // namespace
 
-TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers) {
+TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers, bool marks) {
     const ViewSamples& samples = input.samples;
-    const TextureHandle lifted = input.graph.create(TextureDesc{
-        .name = "volume receivers", .format = VK_FORMAT_D32_SFLOAT, .width = samples.width, .height = samples.height});
+    const TextureHandle lifted =
+        input.graph.create(TextureDesc{.name = "volume receivers",
+                                       .format = marks ? VK_FORMAT_D32_SFLOAT_S8_UINT : VK_FORMAT_D32_SFLOAT,
+                                       .width = samples.width,
+                                       .height = samples.height});
     ShaderInputs inputs = volume_side_inputs(input, buffers);
     add_gbuffer(inputs, input.device, samples);
     inputs.texture("sampler2D", "depth", lent(samples.depth, "depth"));
@@ -112,7 +119,7 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
     return lifted;
 }
 
-Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, bool masked) {
+Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, const CountResolve& resolve) {
     const ViewSamples& samples = input.samples;
     const TextureHandle image = input.graph.create(TextureDesc{
         .name = "visibility", .format = VK_FORMAT_R32_SFLOAT, .width = samples.width, .height = samples.height});
@@ -121,18 +128,23 @@ Visibility add_count_resolve(const FrameInput& input, TextureHandle counts, bool
     inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "counts", counts);
     inputs.constant("GnLight", "light", input.whole_light().shape);
     inputs.constant("vec4", "light_ws", light_point_ws(input.light().shape));
-    const std::optional<MaskedTree> tree = masked ? MaskedTree::of(input) : std::nullopt;
+    const std::optional<MaskedTree> tree = resolve.masked ? MaskedTree::of(input) : std::nullopt;
     if (tree) {
         tree->add_to(inputs, input);
+    }
+    if (resolve.known.valid()) {
+        inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "known", resolve.known);
     }
     const auto shader = made_once(input.prepared, "volume resolve", hashed(inputs).finish().low, [&] {
         const std::string hides =
             tree ? MaskedTree::functions() + "#define HIDES_MASKED(p_ws, n_ws) masked_hides(p_ws, n_ws, u.light_ws)\n"
                  : "#define HIDES_MASKED(p_ws, n_ws) false\n";
-        return sealed(
-            fullscreen({ShaderKind::fragment, "volume-resolve.frag",
-                        std::string("#include \"shadow/scene/light.h\"\n") +
-                            (tree ? MaskedTree::types(input.device) : "") + inputs.text() + hides + resolve_text}));
+        const std::string known =
+            resolve.known.valid() ? "#define KNOWN_V(pixel) known_texel(pixel).r\n" : "#define KNOWN_V(pixel) 2.0\n";
+        return sealed(fullscreen({ShaderKind::fragment, "volume-resolve.frag",
+                                  std::string("#include \"shadow/scene/light.h\"\n") +
+                                      (tree ? MaskedTree::types(input.device) : "") + inputs.text() + hides + known +
+                                      resolve_text}));
     });
     input.graph.add_pass(
         "volumes: resolve",

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002. [EK02]
 // A side of a volume, or with STRIP its beginning at the edge that it hangs from; of those that count behind the sample, or
-// with BEFORE before it. The shader clips at the near plane itself: depth clamping, which keeps what lies beyond the far plane,
+// with LISTED_BEFORE before it. The shader clips at the near plane itself: depth clamping, which keeps what lies beyond the far plane,
 // turns the fixed clipping off.
 layout(constant_id = 0) const int STRIP = 0;
-layout(constant_id = 3) const int BEFORE = 0;
+layout(constant_id = 3) const int LISTED_BEFORE = 0;
 layout(location = 0) flat out vec3 a_ws;
 layout(location = 1) flat out vec3 b_ws;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
@@ -37,7 +37,7 @@ void main() {
     // triangle is nothing.
     uint corners = STRIP != 0 ? 6u : gn_volumes_corners(u.frame);
     uint slot = uint(gl_VertexIndex) / corners;
-    uint side = sides[BEFORE != 0 ? u.frame.most_sides - 1u - slot : slot];
+    uint side = sides[LISTED_BEFORE != 0 ? u.frame.most_sides - 1u - slot : slot];
     uint corner = uint(gl_VertexIndex) % corners + 6u - corners;
     uvec2 edge = edges[side >> 1];
     a_ws = positions[edge.x];

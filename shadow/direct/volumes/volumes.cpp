@@ -31,7 +31,7 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     add_silhouettes(input, buffers);
     const TextureHandle receivers = add_receivers(input, buffers);
     const TextureHandle counts = add_counts(input, buffers, receivers);
-    return add_count_resolve(input, counts, params.masked == GN_VOLUMES_EXACT);
+    return add_count_resolve(input, counts, {.masked = params.masked == GN_VOLUMES_EXACT});
 }
 
 std::string remark(const Scene& scene, const Recipe& recipe) {
