@@ -45,11 +45,11 @@ TextureHandle add_seen(const FrameInput& input, const Recipe& recipe, const Ligh
     const std::string functions = sample_functions(input, recipe, views);
     const std::uint64_t key = hashed(inputs).text(defines).text(functions).text(views.part->id).finish().low;
     const auto pipeline = made_once(input.prepared, "hybrid-volumes.frag", key, [&] {
-        return sealed(fullscreen({ShaderKind::fragment, "hybrid-volumes.frag",
-                                  defines + include_line("shadow/view/view.glsl") +
-                                      placement_text(*views.part, recipe) +
-                                      include_line("shadow/direct/hybrid_volumes/hybrid_volumes.glsl") +
-                                      inputs.text() + functions + seen_text}));
+        return sealed(
+            fullscreen({ShaderKind::fragment, "hybrid-volumes.frag",
+                        defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
+                            include_line("shadow/direct/hybrid_volumes/hybrid_volumes.glsl") + inputs.text() +
+                            functions + seen_text}));
     });
     input.graph.add_pass(
         "hybrid-volumes: map",

@@ -50,9 +50,9 @@ TextureHandle add_splits(const FrameInput& input, int tile) {
     ShaderInputs inputs;
     inputs.texture("sampler2D", "depth", lent(samples.depth, "depth")).constant("int", "tile", tile);
     const auto pipeline = made_once(input.prepared, "splitting depths", hashed(inputs).finish().low, [&] {
-        return sealed(fullscreen({ShaderKind::fragment, "split-volumes.frag",
-                                  include_line("shadow/direct/split_volumes/split_volumes.glsl") + inputs.text() +
-                                      tile_text}));
+        return sealed(
+            fullscreen({ShaderKind::fragment, "split-volumes.frag",
+                        include_line("shadow/direct/split_volumes/split_volumes.glsl") + inputs.text() + tile_text}));
     });
     input.graph.add_pass(
         "split-volumes: depths",

@@ -5,7 +5,7 @@
 // form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
 // (volumes.md).
 //
-// Also here: volumes_modes_test.cpp, volumes_random_test.cpp. The passes stand in shadow/geometry.
+// Also here: volumes_modes_test.cpp, volumes_random_test.cpp, volumes_scenes_test.cpp. The passes stand in shadow/geometry.
 #include "shadow/direct/volumes/volumes.h"
 
 #include "shadow/geometry/draw.h"
