@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The hard shadow of the light's centre, and for each silhouette edge what it hides of the light beyond, or shows.
+//
+// Based on: Assarsson, Akenine-Moller. A Geometry-Based Soft Shadow Volume Algorithm Using Graphics Hardware. TOG 2003. [AA03]
+// Based on: Forest, Barthe, Paulin. Realistic Soft Shadows by Penumbra-Wedges Blending. Graphics Hardware 2006. [FBP06]
+// Departs from it: coverage has a closed form for squares and discs, which the table is made of; wedges are bounded on the
+// screen by one rectangle each.
+//
+// Also here: soft_volumes_table.h, soft_volumes_table.cpp.
+#include "shadow/direct/soft_volumes/soft_volumes.h"
+
+#include "gpu/upload.h"
+#include "shadow/direct/soft_volumes/soft_volumes_table.h"
+#include "shadow/geometry/edge_regions.h"
+#include "shadow/recipe/prepared.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* exact_text = R"(
+float gn_coverage(vec2 a, vec2 b) { return gn_beyond(u.light.kind == uint(GN_LIGHT_RECTANGLE), a, b); }
+)";
+
+constexpr const char* whole_text = R"(
+    vec2 a;
+    vec2 b;
+    float side = gn_soft_volumes_edge(u.light, p_ws, a_ws, b_ws, a, b);
+    result = side != 0.0 ? side * gn_coverage(a, b) : 0.0;
+)";
+
+constexpr const char* quarters_text = R"(
+    vec2 a;
+    vec2 b;
+    float side = gn_soft_volumes_edge(u.light, p_ws, a_ws, b_ws, a, b);
+    result = vec4(0.0);
+    for (int i = 0; side != 0.0 && i < 4; ++i) {
+        vec2 c = a;
+        vec2 d = b;
+        vec2 signs = vec2((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0);
+        result[i] = gn_soft_volumes_quarter(signs, c, d) ? side * gn_coverage(c, d) : 0.0;
+    }
+)";
+
+Visibility add_soft_volumes(const FrameInput& input, const Recipe& recipe) {
+    const auto params = recipe.of<GnSoftVolumesParams>("soft-volumes");
+    const GnLight& light = input.light().shape;
+    const HardShadow hard = add_hard_shadow(input, params.closed != 0);
+    if (!has_extent(light)) {
+        return hard.visibility;
+    }
+
+    // Sum what the edges hide.
+    const bool quarters = params.regions == GN_SOFT_VOLUMES_FOUR, table = params.coverage == GN_SOFT_VOLUMES_TABLE;
+    EdgeRegionPass pass{.name = "soft-volumes: wedges",
+                        .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
+                        .functions = table ? soft_volumes_table_text : exact_text,
+                        .fragment = quarters ? quarters_text : whole_text,
+                        .result = quarters ? "vec4" : "float"};
+    pass.extra.constant("GnLight", "light", light);
+    if (table) {
+        const bool square = light.kind == GN_LIGHT_RECTANGLE;
+        const auto buffer = made_once(
+            input.prepared, "soft-volumes coverage", static_cast<std::uint64_t>(params.table) * 2 + (square ? 1 : 0),
+            [&] { return upload(input.device, "soft-volumes coverage", soft_volumes_table(square, params.table)); });
+        input.graph.hold(buffer);
+        pass.extra.constant("int", "side", params.table)
+            .buffer("readonly buffer", "Coverage", "float coverage[];", input.graph.import(*buffer));
+    }
+    const TextureHandle hidden =
+        input.graph.create(TextureDesc{.name = "soft-volumes hidden",
+                                       .format = quarters ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32_SFLOAT,
+                                       .width = input.samples.width,
+                                       .height = input.samples.height});
+    add_edge_regions(input, hard.buffers, pass, hidden, {});
+    return add_edge_resolve(input, hard.visibility.image, hidden,
+                            {.name = "soft-volumes: resolve",
+                             .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
+                             .expression = quarters ? "gn_soft_volumes_light4(hard, soft)"
+                                                    : "gn_soft_volumes_light(hard, soft)",
+                             .channels = quarters ? 4U : 1U});
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& direct_soft_volumes() {
+    static const Part part = [] {
+        Part p;
+        p.id = "soft-volumes";
+        p.stage = Stage::direct;
+        p.title = "Soft shadow volumes";
+        p.citation = "AA03";
+        p.features = {Feature::float32_blend};
+        p.needs_scene = true;
+        p.params = param_table<GnSoftVolumesParams>({
+            GN_CHOICE(GnSoftVolumesParams, coverage,
+                      "exact works out what an edge hides; table looks it up by both ends, as graphics hardware had to.",
+                      "exact", "table"),
+            GN_PARAM(GnSoftVolumesParams, table, integer, 4, 48, "entries",
+                     "Finer tables along each of four axes: less error, bytes by the fourth power."),
+            GN_CHOICE(GnSoftVolumesParams, regions,
+                      "four sums by quarters of the light, so that casters one before the other darken less.", "one",
+                      "four"),
+            GN_PARAM(GnSoftVolumesParams, closed, boolean, 0, 1, "",
+                     "Solids cast with the half of their surface that light meets first; off counts every triangle."),
+        });
+        p.params_type = "GnSoftVolumesParams";
+        p.glsl = "shadow/direct/soft_volumes/soft_volumes.glsl";
+        p.add_direct = add_soft_volumes;
+        p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "soft-volumes"); };
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

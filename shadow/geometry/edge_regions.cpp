@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/geometry/edge_regions.h"
+
+#include "shadow/frame/frame.h"
+#include "shadow/geometry/caster_geometry.h"
+#include "shadow/geometry/draw.h"
+#include "shadow/geometry/potential_receivers.h"
+#include "shadow/geometry/seen_light.glsl"
+#include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
+#include "shadow/scene/casting.h"
+
+#include <cmath>
+
+namespace gn {
+namespace {
+
+/// As `frame_text` declares it.
+struct GnEdgeRegion {
+    mat4 cs_from_ws{1};
+    vec4 light_ws{0};  ///< w = 1: the centre; w = 0: the direction towards it
+    vec4 x_ws{0};      ///< the light's half axes; w > 0: a sphere of this radius
+    vec4 y_ws{0};
+    vec4 low_ws{0}, high_ws{0};  ///< bounds of what is seen
+    vec2 size{0};                ///< of the picture, pixels
+};
+
+constexpr const char* frame_text = R"(
+struct GnEdgeRegion {
+    mat4 cs_from_ws;
+    vec4 light_ws;
+    vec4 x_ws;
+    vec4 y_ws;
+    vec4 low_ws;
+    vec4 high_ws;
+    vec2 size;
+};
+)";
+
+GnEdgeRegion region_of(const FrameInput& input, float growth) {
+    const GnLight& light = input.light().shape;
+    GnEdgeRegion region{.cs_from_ws = input.samples.constants.cs_from_ws, .light_ws = light_point_ws(light)};
+    const vec2 half_size = growth * glsl::gn_light_half_size(light);
+    vec3 x(light.right_ws);
+    vec3 y(light.up_ws);
+    if (light.kind != GN_LIGHT_RECTANGLE) {
+        complete_frame(vec3(light.direction_ws), x, y);
+    }
+    region.x_ws = vec4(x * half_size.x, light.kind == GN_LIGHT_POINT ? half_size.x : 0.0F);
+    region.y_ws = vec4(y * half_size.y, 0);
+    const Box bounds = seen_bounds(input);  // of what the samples are part of
+    const vec3 margin(1e-4F * bounds.diagonal());
+    region.low_ws = vec4(bounds.min - margin, 1);
+    region.high_ws = vec4(bounds.max + margin, 1);
+    region.size = vec2(input.samples.width, input.samples.height);
+    return region;
+}
+
+ShaderInputs region_inputs(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass) {
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
+        .buffer("readonly buffer", "Edges", "uvec2 edges[];", buffers.edges)
+        .buffer("readonly buffer", "Sides", "uint sides[];", buffers.sides)
+        .constant("GnEdgeRegion", "region", region_of(input, pass.growth));
+    add_gbuffer(inputs, input.device, input.samples);
+    inputs.add(pass.extra);
+    return inputs;
+}
+
+constexpr const char* fragment_text = R"(
+layout(location = 0) flat in vec3 a_ws;
+layout(location = 1) flat in vec3 b_ws;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 position = gbuffer_position_texel(pixel);
+    if (position.w == 0.0) {
+        discard;
+    }
+    vec3 p_ws = position.xyz;
+    vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
+)";
+
+constexpr const char* resolve_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(visibility)))) {
+        return;
+    }
+    vec4 p_ws = gbuffer_position_texel(pixel);
+    float v = 0.0;
+    if (p_ws.w > 0.5 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz)) {
+        float hard = hard_texel(pixel).r;
+        GN_SOFT soft = GN_SOFT(soft_texel(pixel));
+        v = clamp(GN_EDGE_RESOLVE, 0.0, 1.0);
+    }
+    imageStore(visibility, pixel, vec4(v));
+}
+)";
+
+}  // namespace
+
+HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
+    HardShadow hard{import_volume_buffers(input, {.closed = closed, .culling = false}), {}};
+    add_facing(input, hard.buffers);
+    add_silhouettes(input, hard.buffers);
+    const TextureHandle receivers = add_receivers(input, hard.buffers);
+    hard.visibility = add_count_resolve(input, add_counts(input, hard.buffers, receivers));
+    return hard;
+}
+
+void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
+                      TextureHandle image, ClearValue clear) {
+    const ShaderInputs inputs = region_inputs(input, buffers, pass);
+    const std::uint64_t key =
+        hashed(inputs)
+                                  .text(pass.name)
+                                  .text(pass.includes)
+                                  .text(pass.functions)
+                                  .text(pass.fragment)
+                                  .value(pass.blend)
+                                  .finish()
+                                  .low;
+    const auto pipeline = made_once(input.prepared, "edge regions", key, [&] {
+        const std::string head = std::string(frame_text) + include_line("shadow/geometry/seen_light.glsl") +
+                                 std::string(pass.includes) + inputs.text();
+        RasterDesc desc;
+        desc.vertex = {ShaderKind::vertex, "edge-region.vert", head + include_line("shadow/geometry/edge_regions.glsl")};
+        desc.fragment =
+            ShaderSource{ShaderKind::fragment, "edge-region.frag",
+                         fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}{}}}\n", head, pass.result,
+                                     pass.functions, fragment_text, pass.fragment)};
+        desc.blend = pass.blend;
+        return sealed(desc);
+    });
+    input.graph.add_pass(
+        std::string(pass.name),
+        [&](PassBuilder& builder) {
+            builder.color(image, Load::clear, clear);
+            builder.indirect(buffers.draws);
+            inputs.declare(builder);
+        },
+        [inputs, pipeline, draws = buffers.draws](Recorder& r) {
+            r.bind(*pipeline);
+            inputs.set(r);
+            r.draw_indirect(draws, VkDeviceSize{strips_draw} * sizeof(std::uint32_t));
+        });
+}
+
+std::string remark_masked(const Scene& scene, std::string_view part) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr)) {
+            return fmt::format("{} cannot see alpha: the masked polygons of this scene cast as a whole", part);
+        }
+    }
+    return "";
+}
+
+bool has_extent(const GnLight& light) {
+    const vec2 size = glsl::gn_light_half_size(light);
+    return size.x > 0.0F && size.y > 0.0F;
+}
+
+Visibility add_edge_resolve(const FrameInput& input, TextureHandle hard, TextureHandle soft,
+                            const EdgeResolve& resolve) {
+    Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, input.samples);
+    inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "hard", hard)
+        .texels(input.device, input.graph.desc(soft).format, "2D", "soft", soft)
+        .image("r32f", "writeonly", "image2D", "visibility", result.image)
+        .constant("GnLight", "light", input.whole_light().shape);
+    const auto shader = compute_once(input.prepared, resolve.name, hashed(inputs).text(resolve.expression), [&] {
+        return fmt::format("#define GN_SOFT {}\n#define GN_EDGE_RESOLVE {}\n", resolve.channels == 1 ? "float" : "vec4",
+                           resolve.expression) +
+               include_line("shadow/scene/light.h") + std::string(resolve.includes) + inputs.text() + resolve_text;
+    });
+    input.graph.add_pass(
+        std::string(resolve.name), [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch_pixels(width, height);
+        });
+    return result;
+}
+
+}  // namespace gn

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Shaders that ask, for each view sample and each silhouette edge between it and the light, what the edge hides.
+#pragma once
+
+#include "gpu/shader_inputs.h"
+#include "shadow/geometry/volume_passes.h"
+#include "shadow/stages.h"
+
+#include <string>
+
+namespace gn {
+
+/// The hard shadow of the light's centre, and the silhouettes that it was made of.
+struct HardShadow {
+    VolumeBuffers buffers;
+    Visibility visibility;
+};
+/// By shadow volumes that count behind the samples; nothing is culled, since what casts no hard shadow may cast a soft one.
+HardShadow add_hard_shadow(const FrameInput& input, bool closed);
+
+/// What is drawn into an image for each silhouette edge, where it may hide part of the light.
+struct EdgeRegionPass {
+    std::string_view name;      ///< of the pass
+    std::string_view includes;   ///< GLSL before the inputs
+    std::string_view functions;  ///< GLSL after them
+    /// GLSL in main: `float result`, or `vec4 result`; it has p_ws and n_ws (the sample), a_ws and b_ws (the edge, as
+    /// gn_lit_side says) and what `extra` declares.
+    std::string_view fragment;
+    std::string_view result = "float";
+    ShaderInputs extra;
+    Blend blend = Blend::add;
+    float growth = 1;  ///< the light is taken to be so many times as large
+};
+/// Draws it into the image, which is cleared before.
+void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
+                      TextureHandle image, ClearValue clear);
+
+/// What such a part says of a scene with masked casters, or "".
+std::string remark_masked(const Scene& scene, std::string_view part);
+
+/// Whether the light has any extent.
+bool has_extent(const GnLight& light);
+/// A pass over all samples: V = GLSL expression of `hard` (0 or 1) and `float`/`vec4 soft`, clamped; 0 where none counts.
+struct EdgeResolve {
+    std::string_view name, includes, expression;
+    uint channels = 1;  ///< of `soft`
+};
+Visibility add_edge_resolve(const FrameInput& input, TextureHandle hard, TextureHandle soft,
+                            const EdgeResolve& resolve);
+
+}  // namespace gn
