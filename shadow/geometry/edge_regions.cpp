@@ -112,8 +112,7 @@ HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
 void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
                       TextureHandle image, ClearValue clear) {
     const ShaderInputs inputs = region_inputs(input, buffers, pass);
-    const std::uint64_t key =
-        hashed(inputs)
+    const std::uint64_t key = hashed(inputs)
                                   .text(pass.name)
                                   .text(pass.includes)
                                   .text(pass.functions)
@@ -125,11 +124,11 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
         const std::string head = std::string(frame_text) + include_line("shadow/geometry/seen_light.glsl") +
                                  std::string(pass.includes) + inputs.text();
         RasterDesc desc;
-        desc.vertex = {ShaderKind::vertex, "edge-region.vert", head + include_line("shadow/geometry/edge_regions.glsl")};
-        desc.fragment =
-            ShaderSource{ShaderKind::fragment, "edge-region.frag",
-                         fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}{}}}\n", head, pass.result,
-                                     pass.functions, fragment_text, pass.fragment)};
+        desc.vertex = {ShaderKind::vertex, "edge-region.vert",
+                       head + include_line("shadow/geometry/edge_regions.glsl")};
+        desc.fragment = ShaderSource{ShaderKind::fragment, "edge-region.frag",
+                                     fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}{}}}\n", head,
+                                                 pass.result, pass.functions, fragment_text, pass.fragment)};
         desc.blend = pass.blend;
         return sealed(desc);
     });

@@ -20,7 +20,7 @@ HardShadow add_hard_shadow(const FrameInput& input, bool closed);
 
 /// What is drawn into an image for each silhouette edge, where it may hide part of the light.
 struct EdgeRegionPass {
-    std::string_view name;      ///< of the pass
+    std::string_view name;       ///< of the pass
     std::string_view includes;   ///< GLSL before the inputs
     std::string_view functions;  ///< GLSL after them
     /// GLSL in main: `float result`, or `vec4 result`; it has p_ws and n_ws (the sample), a_ws and b_ws (the edge, as

@@ -54,4 +54,7 @@ std::shared_ptr<const RasterDesc> flat_receiver_pipeline(const FrameInput& input
 /// What that reads, of one plane.
 ShaderInputs flat_receiver_inputs(const FrameInput& input, const GnFlattening& frame);
 
+/// The hard shadow of the light's centre on these planes; V = 1 elsewhere, 0 where no sample counts.
+Visibility add_flat_shadow(const FrameInput& input, const ReceiverPlanes& found);
+
 }  // namespace gn

@@ -72,12 +72,12 @@ Visibility add_soft_volumes(const FrameInput& input, const Recipe& recipe) {
                                        .width = input.samples.width,
                                        .height = input.samples.height});
     add_edge_regions(input, hard.buffers, pass, hidden, {});
-    return add_edge_resolve(input, hard.visibility.image, hidden,
-                            {.name = "soft-volumes: resolve",
-                             .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
-                             .expression = quarters ? "gn_soft_volumes_light4(hard, soft)"
-                                                    : "gn_soft_volumes_light(hard, soft)",
-                             .channels = quarters ? 4U : 1U});
+    return add_edge_resolve(
+        input, hard.visibility.image, hidden,
+        {.name = "soft-volumes: resolve",
+         .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
+         .expression = quarters ? "gn_soft_volumes_light4(hard, soft)" : "gn_soft_volumes_light(hard, soft)",
+         .channels = quarters ? 4U : 1U});
 }
 
 }  // namespace
@@ -94,9 +94,10 @@ const Part& direct_soft_volumes() {
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
         p.params = param_table<GnSoftVolumesParams>({
-            GN_CHOICE(GnSoftVolumesParams, coverage,
-                      "exact works out what an edge hides; table looks it up by both ends, as graphics hardware had to.",
-                      "exact", "table"),
+            GN_CHOICE(
+                GnSoftVolumesParams, coverage,
+                "exact works out what an edge hides; table looks it up by both ends, as graphics hardware had to.",
+                "exact", "table"),
             GN_PARAM(GnSoftVolumesParams, table, integer, 4, 48, "entries",
                      "Finer tables along each of four axes: less error, bytes by the fourth power."),
             GN_CHOICE(GnSoftVolumesParams, regions,

@@ -102,7 +102,8 @@ Difference from_closed_form(const test::Comparison& c, double allowed) {
         if (c.truth.counted[i] == 0 || std::abs(p_ws.y) > 1e-5) {
             continue;
         }
-        const double v = *c.scene.closed_form(0, p_ws), off = std::abs(v - static_cast<double>(c.visibility().values[i]));
+        const double v = *c.scene.closed_form(0, p_ws),
+                     off = std::abs(v - static_cast<double>(c.visibility().values[i]));
         if (v > 0 && v < 1) {
             ++d.penumbra;
             d.rms += off * off;

@@ -16,10 +16,11 @@ Visibility add_wedges(const FrameInput& input, const Recipe& recipe) {
     if (!has_extent(input.light().shape)) {
         return hard.visibility;
     }
-    EdgeRegionPass pass{.name = "wedges: wedges",
-                        .includes = "#include \"shadow/direct/wedges/wedges.glsl\"\n",
-                        .fragment = "    result = gn_wedge_hidden(gn_wedge(u.light, a_ws, b_ws, u.params.turn), p_ws);\n",
-                        .growth = 1.5F};
+    EdgeRegionPass pass{
+        .name = "wedges: wedges",
+        .includes = "#include \"shadow/direct/wedges/wedges.glsl\"\n",
+        .fragment = "    result = gn_wedge_hidden(gn_wedge(u.light, a_ws, b_ws, u.params.turn), p_ws);\n",
+        .growth = 1.5F};
     pass.extra.constant("GnLight", "light", input.light().shape).constant("GnWedgesParams", "params", params);
     // 16 bits hold what is summed, as [AA02] section 4 does: every step is at most a half.
     const TextureHandle hidden = input.graph.create(TextureDesc{.name = "wedges hidden",

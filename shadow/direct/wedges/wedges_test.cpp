@@ -22,7 +22,8 @@ struct Ramp {
         // The caster lies where x < 0: the edge runs so that its lit side is x > 0.
         vec3 a_ws(0, 0, -50);
         vec3 b_ws(0, 0, 50);
-        if (glsl::gn_lit_side(a_ws - vec3(1, -1, 0), b_ws - vec3(1, -1, 0), vec3(light.position_ws) - vec3(1, -1, 0)) < 0) {
+        if (glsl::gn_lit_side(a_ws - vec3(1, -1, 0), b_ws - vec3(1, -1, 0), vec3(light.position_ws) - vec3(1, -1, 0)) <
+            0) {
             std::swap(a_ws, b_ws);
         }
         const glsl::GnWedge wedge = glsl::gn_wedge(light, a_ws, b_ws, turn);
@@ -48,7 +49,8 @@ TEST(WedgesLaws, planes_that_touch_the_sphere_err_as_derived) {
 }
 
 TEST(WedgesRendered, the_half_plane_has_its_ramp) {
-    const test::Comparison c = test::compare("half-plane", "wedges,wedges.turn=atan", {.width = 96, .height = 96, .samples = 16});
+    const test::Comparison c =
+        test::compare("half-plane", "wedges,wedges.turn=atan", {.width = 96, .height = 96, .samples = 16});
     std::size_t wrong = 0, penumbra = 0;
     for (std::size_t i = 0; i < c.truth.visibility.size(); ++i) {
         const dvec3 p_ws(c.frame.samples.position_ws[i]);
