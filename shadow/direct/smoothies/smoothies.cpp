@@ -2,8 +2,7 @@
 // A shadow map, and beside it fins on the silhouettes that say how far off an edge a texel is.
 //
 // Based on: Chan, Durand. Rendering Fake Soft Shadows with Smoothies. EGSR 2003. [CD03]
-// Departs from it: fins are as wide as the light, so that penumbrae have its width, and what they say is divided by the ratio
-// of depths where it is read, for the receiver's own depth.
+// Departs from it: fins are as wide as the light, so that penumbrae have its width.
 //
 // Stands on: shadow/placement/place (its map is placed as those of lookups are)
 #include "shadow/direct/smoothies/smoothies.h"
@@ -12,13 +11,22 @@
 #include "shadow/casters/raster.h"
 #include "shadow/frame/frame.h"
 #include "shadow/frame/map_memory.h"
-#include "shadow/geometry/caster_geometry.h"
 #include "shadow/placement/place.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
+
+// [CD03] section 3.3: the darkest fin counts, and the nearest edge of those that darken anything. An edge may stand before the near plane.
+constexpr const char* fin_text = R"(
+    bool lamp = u.light_ws.w > 0.0;
+    float eye = lamp ? dot(views[index].depth_from_ws, u.light_ws) : 0.0;
+    float surface = texelFetch(depth_map, texel, 0).r;
+    float light = gn_smoothies_light(off, (edge_depth - eye) * views[index].metres_per_depth,
+                                     (surface - eye) * views[index].metres_per_depth, lamp, u.params);
+    result = vec2(light, light < 1.0 ? edge_depth : 1.0);
+)";
 
 constexpr const char* text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -40,11 +48,8 @@ void main() {
             vec2 centre_ts = (vec2(texel) + 0.5) * p.texel_ts;
             float occluder = texelFetch(depth_map, ivec3(texel, view.layer), 0).r;
             vec2 fin = texelFetch(fins, ivec3(texel, view.layer), 0).rg;
-            float eye = u.light_ws.w > 0.0 ? dot(view.depth_from_ws, u.light_ws) : 0.0;
-            v = gn_depth_at(p, centre_ts, u.bias) > occluder
-                    ? 0.0
-                    : gn_smoothies_light(fin.r, (fin.g - eye) * view.metres_per_depth,
-                                         (dot(view.depth_from_ws, vec4(receiver.p_ws, 1.0)) - eye) * view.metres_per_depth, u.light_ws.w > 0.0, u.params);
+            bool behind = dot(view.depth_from_ws, vec4(receiver.p_ws, 1.0)) > fin.g;
+            v = gn_depth_at(p, centre_ts, u.bias) > occluder ? 0.0 : behind ? fin.r : 1.0;
         }
     }
     imageStore(visibility, pixel, vec4(v));
@@ -57,9 +62,7 @@ Visibility add_resolve_fins(const FrameInput& input, const Recipe& recipe, const
     ShaderInputs inputs = sample_inputs(input, recipe, views);
     inputs.texture("sampler2DArray", "depth_map", depth)
         .texture("sampler2DArray", "fins", fins)
-        .image("r32f", "writeonly", "image2D", "visibility", result.image)
-        .constant("vec4", "light_ws", light_point_ws(input.light().shape))
-        .constant("GnSmoothiesParams", "params", recipe.of<GnSmoothiesParams>("smoothies"));
+        .image("r32f", "writeonly", "image2D", "visibility", result.image);
     const std::string defines = receiver_defines(recipe, views);
     const std::string functions = sample_functions(input, recipe, views);
     const Hasher key = hashed(inputs).text(defines).text(functions).text(views.part->id);
@@ -93,14 +96,16 @@ Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
     const TextureHandle fins = input.graph.create(desc);
     check_map_memory(input, recipe, depth);
     add_caster_passes(input, recipe, views, {.depth = depth});
-    // An edge may stand before the near plane. The nearest one counts, and the nearest depth: not always of the same fin. [CD03] section 3.3
+    ShaderInputs extra;
+    extra.texture("sampler2DArray", "depth_map", depth)
+        .constant("GnSmoothiesParams", "params", recipe.of<GnSmoothiesParams>("smoothies"));
     add_fins(input, add_fin_edges(input), views,
              {.name = "smoothies: fins",
-              .includes = "",
-              .fragment = "    result = vec2(off, min(edge_depth, 1.0));\n",
+              .includes = "#include \"shadow/direct/smoothies/smoothies.glsl\"\n",
+              .fragment = fin_text,
               .result = "vec2",
-              .extra = {}},
-             fins, {.color = vec4(1e6F, 1, 0, 0)});
+              .extra = extra},
+             fins, {.color = vec4(1, 1, 0, 0)});
     return add_resolve_fins(input, recipe, views, depth, fins);
 }
 
