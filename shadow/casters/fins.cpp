@@ -91,8 +91,9 @@ VolumeBuffers add_fin_edges(const FrameInput& input) {
 
 std::string refuses_fins(std::string_view part, const Recipe& recipe) {
     return recipe.placement != nullptr && recipe.placement->bends
-               ? fmt::format("direct '{}' draws straight fins into its views and placement '{}' bends them; use auto or cube",
-                             part, recipe.placement->id)
+               ? fmt::format(
+                     "direct '{}' draws straight fins into its views and placement '{}' bends them; use auto or cube",
+                     part, recipe.placement->id)
                : "";
 }
 

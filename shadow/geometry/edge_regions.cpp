@@ -101,11 +101,11 @@ void main() {
 }  // namespace
 
 HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
-    HardShadow hard{import_volume_buffers(input, {.closed = closed, .culling = false}), {}};
+    HardShadow hard{import_volume_buffers(input, {.skip_masked = true, .closed = closed, .culling = false}), {}};
     add_facing(input, hard.buffers);
     add_silhouettes(input, hard.buffers);
     const TextureHandle receivers = add_receivers(input, hard.buffers);
-    hard.visibility = add_count_resolve(input, add_counts(input, hard.buffers, receivers));
+    hard.visibility = add_count_resolve(input, add_counts(input, hard.buffers, receivers), {.masked = true});
     return hard;
 }
 
@@ -149,7 +149,7 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
 std::string remark_masked(const Scene& scene, std::string_view part) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         if (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr)) {
-            return fmt::format("{} cannot see alpha: the masked polygons of this scene cast as a whole", part);
+            return fmt::format("{} finds no silhouettes of masked casters: their shadows keep hard edges", part);
         }
     }
     return "";

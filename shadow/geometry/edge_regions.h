@@ -15,7 +15,8 @@ struct HardShadow {
     VolumeBuffers buffers;
     Visibility visibility;
 };
-/// By shadow volumes that count behind the samples; nothing is culled, since what casts no hard shadow may cast a soft one.
+/// By shadow volumes that count behind the samples, and rays through masked casters, which have no silhouettes; nothing is culled,
+/// since what casts no hard shadow may cast a soft one.
 HardShadow add_hard_shadow(const FrameInput& input, bool closed);
 
 /// What is drawn into an image for each silhouette edge, where it may hide part of the light.

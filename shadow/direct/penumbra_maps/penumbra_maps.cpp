@@ -82,7 +82,8 @@ Visibility add_resolve_fins(const FrameInput& input, const Recipe& recipe, const
 Visibility add_penumbra_maps(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
     if (views.tiles) {
-        refuse("penumbra-maps draws fins into whole views, and placement '{}' has tiles; use auto or cascades", views.part->id);
+        refuse("penumbra-maps draws fins into whole views, and placement '{}' has tiles; use auto or cascades",
+               views.part->id);
     }
     TextureDesc desc{.name = "map",
                      .format = VK_FORMAT_D32_SFLOAT,
@@ -122,7 +123,9 @@ const Part& direct_penumbra_maps() {
         p.glsl = "shadow/direct/penumbra_maps/penumbra_maps.glsl";
         p.reads = {"placement", "resolution"};
         p.add_direct = add_penumbra_maps;
-        p.refuses = [](const Scene&, const Light&, const Recipe& recipe) { return refuses_fins("penumbra-maps", recipe); };
+        p.refuses = [](const Scene&, const Light&, const Recipe& recipe) {
+            return refuses_fins("penumbra-maps", recipe);
+        };
         return p;
     }();
     return part;

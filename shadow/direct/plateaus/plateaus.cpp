@@ -81,8 +81,7 @@ ShaderInputs slope_inputs(const FrameInput& input, const VolumeBuffers& buffers,
 
 /// The slopes of all planes, the darkest of each sample.
 TextureHandle add_slopes(const FrameInput& input, const VolumeBuffers& buffers, const ReceiverPlanes& found) {
-    const LitPlanes lit =
-        lit_planes(input.samples.constants.cs_from_ws, found, light_point_ws(input.light().shape));
+    const LitPlanes lit = lit_planes(input.samples.constants.cs_from_ws, found, light_point_ws(input.light().shape));
     std::vector<ShaderInputs> inputs;
     for (const GnFlattening& plane : lit.planes) {
         inputs.push_back(slope_inputs(input, buffers, plane));
@@ -125,7 +124,7 @@ Visibility add_plateaus(const FrameInput& input, const Recipe& recipe) {
     if (!has_extent(input.light().shape)) {
         return hard;
     }
-    const VolumeBuffers buffers = import_volume_buffers(input, {.culling = false});
+    const VolumeBuffers buffers = import_volume_buffers(input, {.skip_masked = true, .culling = false});
     add_facing(input, buffers);
     add_silhouettes(input, buffers);
     return add_edge_resolve(input, hard.image, add_slopes(input, buffers, *found),

@@ -83,7 +83,8 @@ Visibility add_resolve_fins(const FrameInput& input, const Recipe& recipe, const
 Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
     if (views.tiles) {
-        refuse("smoothies draws fins into whole views, and placement '{}' has tiles; use auto or cascades", views.part->id);
+        refuse("smoothies draws fins into whole views, and placement '{}' has tiles; use auto or cascades",
+               views.part->id);
     }
     TextureDesc desc{.name = "map",
                      .format = VK_FORMAT_D32_SFLOAT,
