@@ -92,6 +92,7 @@ void main() {
     if (p_ws.w > 0.5 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz)) {
         float hard = hard_texel(pixel).r;
         GN_SOFT soft = GN_SOFT(soft_texel(pixel));
+        vec4 more = GN_MORE;
         v = clamp(GN_EDGE_RESOLVE, 0.0, 1.0);
     }
     imageStore(visibility, pixel, vec4(v));
@@ -146,6 +147,29 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
         });
 }
 
+std::vector<Side> edge_sides() {
+    return {{"wedge-overdraw", "", "How many silhouette edges a pixel asks what they hide."}};
+}
+
+void add_edge_sides(const FrameInput& input, const VolumeBuffers& buffers, float growth, Visibility& told) {
+    if (!holds(input.sides, "wedge-overdraw")) {
+        return;
+    }
+    const TextureHandle image = input.graph.create(TextureDesc{.name = "wedge overdraw",
+                                                               .format = VK_FORMAT_R32_SFLOAT,
+                                                               .width = input.samples.width,
+                                                               .height = input.samples.height});
+    add_edge_regions(input, buffers,
+                     {.name = "wedge overdraw",
+                      .includes = "",
+                      .functions = "",
+                      .fragment = "    result = 1.0;\n",
+                      .extra = {},
+                      .growth = growth},
+                     image, {});
+    told.sides.push_back({"wedge-overdraw", image, {}});
+}
+
 std::string remark_masked(const Scene& scene, std::string_view part) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         if (is_masked(scene, scene.objects[i]) && casts(scene, i, nullptr)) {
@@ -169,9 +193,13 @@ Visibility add_edge_resolve(const FrameInput& input, TextureHandle hard, Texture
         .texels(input.device, input.graph.desc(soft).format, "2D", "soft", soft)
         .image("r32f", "writeonly", "image2D", "visibility", result.image)
         .constant("GnLight", "light", input.whole_light().shape);
+    if (resolve.more.valid()) {
+        inputs.texels(input.device, input.graph.desc(resolve.more).format, "2D", "more", resolve.more);
+    }
     const auto shader = compute_once(input.prepared, resolve.name, hashed(inputs).text(resolve.expression), [&] {
-        return fmt::format("#define GN_SOFT {}\n#define GN_EDGE_RESOLVE {}\n", resolve.channels == 1 ? "float" : "vec4",
-                           resolve.expression) +
+        return fmt::format("#define GN_SOFT {}\n#define GN_MORE {}\n#define GN_EDGE_RESOLVE {}\n",
+                           resolve.channels == 1 ? "float" : "vec4",
+                           resolve.more.valid() ? "more_texel(pixel)" : "vec4(0.0)", resolve.expression) +
                include_line("shadow/scene/light.h") + std::string(resolve.includes) + inputs.text() + resolve_text;
     });
     input.graph.add_pass(

@@ -4,7 +4,7 @@
 
 #include "gpu/shader_inputs.h"
 #include "shadow/geometry/volume_passes.h"
-#include "shadow/stages.h"
+#include "shadow/recipe/part.h"
 
 #include <string>
 
@@ -36,6 +36,10 @@ struct EdgeRegionPass {
 void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
                       TextureHandle image, ClearValue clear);
 
+/// What such parts can tell of a sample, and the image of it where the input asks.
+std::vector<Side> edge_sides();
+void add_edge_sides(const FrameInput& input, const VolumeBuffers& buffers, float growth, Visibility& told);
+
 /// What such a part says of a scene with masked casters, or "".
 std::string remark_masked(const Scene& scene, std::string_view part);
 
@@ -44,7 +48,8 @@ bool has_extent(const GnLight& light);
 /// A pass over all samples: V = GLSL expression of `hard` (0 or 1) and `float`/`vec4 soft`, clamped; 0 where none counts.
 struct EdgeResolve {
     std::string_view name, includes, expression;
-    uint channels = 1;  ///< of `soft`
+    uint channels = 1;     ///< of `soft`
+    TextureHandle more{};  ///< valid: the expression has `vec4 more` too
 };
 Visibility add_edge_resolve(const FrameInput& input, TextureHandle hard, TextureHandle soft,
                             const EdgeResolve& resolve);

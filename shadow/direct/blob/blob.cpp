@@ -23,9 +23,9 @@ void main() {
     vec4 p_ws = gbuffer_position_texel(pixel);
     bool counted = p_ws.w > 0.5 && gn_counted(u.light, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
     // Discs multiply, as they are painted over each other.
-    float v = counted ? 1.0 : 0.0;
+    float v = u.first != 0 ? (counted ? 1.0 : 0.0) : imageLoad(visibility, pixel).r;
     for (int i = 0; counted && i < u.count; ++i) {
-        v *= 1.0 - gn_blob_hidden(blobs[i], u.light_ws, p_ws.xyz, u.params);
+        v *= 1.0 - gn_blob_hidden(blobs[i], p_ws.xyz, u.params);
     }
     imageStore(visibility, pixel, vec4(v));
 }
@@ -42,8 +42,14 @@ std::vector<GnBlob> blobs_of(const FrameInput& input, vec4 light_ws) {
             continue;
         }
         const vec3 way_ws = box_ws.centre() * light_ws.w - vec3(light_ws);
-        const float radius = glsl::gn_blob_radius(box_ws.min, box_ws.max, glm::normalize(way_ws));
-        blobs.push_back({vec4(box_ws.centre(), radius), vec4(box_ws.min, 1), vec4(box_ws.max, 1)});
+        const float to_centre = glm::length(way_ws);
+        if (!(to_centre > 0.0F)) {
+            continue;
+        }
+        const vec3 axis_ws = way_ws / to_centre;
+        // The disc grows with the distance from a lamp.
+        blobs.push_back({vec4(box_ws.centre(), glsl::gn_blob_radius(box_ws.min, box_ws.max, axis_ws)),
+                         vec4(axis_ws, light_ws.w / to_centre), vec4(box_ws.min, 1), vec4(box_ws.max, 1)});
     }
     return blobs;
 }
@@ -51,28 +57,33 @@ std::vector<GnBlob> blobs_of(const FrameInput& input, vec4 light_ws) {
 Visibility add_blobs(const FrameInput& input, const Recipe& recipe) {
     const vec4 light_ws = light_point_ws(input.light().shape);
     std::vector<GnBlob> blobs = blobs_of(input, light_ws);
+    // A uniform block of this many fits every device, and what is uniform is read once for many pixels.
+    constexpr std::size_t most = 16384 / sizeof(GnBlob) - 1;
     const int count = static_cast<int>(blobs.size());
-    blobs.resize(std::max<std::size_t>(blobs.size(), 1));
+    blobs.resize(std::max<std::size_t>((blobs.size() + most - 1) / most, 1) * most);
     Visibility result{create_visibility(input.graph, input.samples)};
-    ShaderInputs inputs;
-    add_gbuffer(inputs, input.device, input.samples);
-    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image)
-        .block("readonly buffer", "Blobs", "GnBlob blobs[];", std::as_bytes(std::span(blobs)))
-        .constant("GnLight", "light", input.whole_light().shape)
-        .constant("vec4", "light_ws", light_ws)
-        .constant("GnBlobParams", "params", recipe.of<GnBlobParams>("blob"))
-        .constant("int", "count", count);
-    const auto shader = compute_once(input.prepared, "blob.comp", hashed(inputs), [&] {
-        return include_line("shadow/scene/light.h") + include_line("shadow/direct/blob/blob.glsl") + inputs.text() +
-               text;
-    });
-    input.graph.add_pass(
-        "blob", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
+    for (std::size_t first = 0; first < blobs.size(); first += most) {
+        ShaderInputs inputs;
+        add_gbuffer(inputs, input.device, input.samples);
+        inputs.image("r32f", "", "image2D", "visibility", result.image)
+            .block("uniform", "Blobs", fmt::format("GnBlob blobs[{}];", most),
+                   std::as_bytes(std::span(blobs).subspan(first, most)))
+            .constant("GnLight", "light", input.whole_light().shape)
+            .constant("GnBlobParams", "params", recipe.of<GnBlobParams>("blob"))
+            .constant("int", "first", first == 0 ? 1 : 0)
+            .constant("int", "count", std::min(count - static_cast<int>(first), static_cast<int>(most)));
+        const auto shader = compute_once(input.prepared, "blob.comp", hashed(inputs), [&] {
+            return include_line("shadow/scene/light.h") + include_line("shadow/direct/blob/blob.glsl") + inputs.text() +
+                   text;
         });
+        input.graph.add_pass(
+            "blob", [&](PassBuilder& pass) { inputs.declare(pass); },
+            [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
+                r.bind(*shader);
+                inputs.set(r);
+                r.dispatch_pixels(width, height);
+            });
+    }
     return result;
 }
 

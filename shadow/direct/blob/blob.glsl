@@ -27,27 +27,25 @@ GN_FN float gn_blob_profile(float x, float softness) {
     return clamp((k + half_width - x) / (2.0f * half_width), 0.0f, 1.0f);
 }
 
-// What the blob hides from a point: nothing within the caster's bounds and before its middle. light_ws: w = 1 a point, w = 0
-// the direction towards it.
-GN_FN float gn_blob_hidden(GnBlob blob, vec4 light_ws, vec3 p_ws, GnBlobParams params) {
+// What the blob hides from a point: nothing within the caster's bounds and before its middle.
+GN_FN float gn_blob_hidden(GnBlob blob, vec3 p_ws, GnBlobParams params) {
+    vec3 from_centre = p_ws - vec3(blob.centre_ws);
+    vec3 axis_ws = vec3(blob.axis_ws);
+    float beyond = dot(from_centre, axis_ws);
+    float radius = blob.centre_ws.w * params.size * (1.0f + beyond * blob.axis_ws.w);
+    vec3 across = from_centre - axis_ws * beyond;
+    float off2 = dot(across, across);
+    // Ramps end before twice the radius.
+    if (beyond <= 0.0f || off2 >= 4.0f * radius * radius) {
+        return 0.0f;
+    }
     vec3 low = vec3(blob.low_ws);
     vec3 high = vec3(blob.high_ws);
-    vec3 c = vec3(blob.centre_ws);
     // A thousandth of the bounds covers the rounding of surfaces that lie in their faces.
     float skin = 1.0e-3f * length(high - low);
     vec3 outside = max(low - p_ws, p_ws - high);
-    vec3 way_ws = c * light_ws.w - vec3(light_ws);
-    float to_centre = length(way_ws);
-    if (max(outside.x, max(outside.y, outside.z)) <= skin || !(to_centre > 0.0f)) {
-        return 0.0f;
-    }
-    vec3 axis_ws = way_ws / to_centre;
-    vec3 from_centre = p_ws - c;
-    float beyond = dot(from_centre, axis_ws);
-    // The disc grows with the distance from a lamp.
-    float radius = blob.centre_ws.w * params.size * (light_ws.w > 0.0f ? 1.0f + beyond / to_centre : 1.0f);
-    float off = length(from_centre - axis_ws * beyond);
-    return beyond > 0.0f && radius > 0.0f ? params.opacity * gn_blob_profile(off / radius, params.softness) : 0.0f;
+    bool within = max(outside.x, max(outside.y, outside.z)) <= skin;
+    return within ? 0.0f : params.opacity * gn_blob_profile(sqrt(off2) / radius, params.softness);
 }
 
 #ifdef __cplusplus

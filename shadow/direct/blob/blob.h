@@ -14,6 +14,7 @@ struct GnBlobParams {
 // A caster as its disc knows it.
 struct GnBlob {
     vec4 centre_ws;  ///< w: the disc's radius across the light, metres
+    vec4 axis_ws;    ///< unit, away from the light; w: by how much of itself the disc grows a metre along it
     vec4 low_ws;     ///< its bounds
     vec4 high_ws;
 };

@@ -12,8 +12,9 @@ namespace {
 
 Visibility add_single_sample(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnSingleSampleParams>("single-sample");
-    const HardShadow hard = add_hard_shadow(input, params.closed != 0);
+    HardShadow hard = add_hard_shadow(input, params.closed != 0);
     if (!has_extent(input.light().shape)) {
+        add_edge_sides(input, hard.buffers, 2, hard.visibility);
         return hard.visibility;
     }
     EdgeRegionPass pass{.name = "single-sample: edges",
@@ -27,12 +28,14 @@ Visibility add_single_sample(const FrameInput& input, const Recipe& recipe) {
                                                              .width = input.samples.width,
                                                              .height = input.samples.height});
     add_edge_regions(input, hard.buffers, pass, tau, {.color = vec4(1)});
-    return add_edge_resolve(
+    Visibility result = add_edge_resolve(
         input, hard.visibility.image, tau,
         {.name = "single-sample: resolve",
          .includes = "#include \"shadow/direct/single_sample/single_sample.glsl\"\n",
          .expression = params.profile == GN_SINGLE_SAMPLE_SINE ? "hard * gn_single_sample_light(soft, 0)"
                                                                : "hard * gn_single_sample_light(soft, 1)"});
+    add_edge_sides(input, hard.buffers, 2, result);
+    return result;
 }
 
 }  // namespace
@@ -48,6 +51,7 @@ const Part& direct_single_sample() {
         p.citation = "PSS98";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = edge_sides();
         p.params = param_table<GnSingleSampleParams>({
             GN_CHOICE(GnSingleSampleParams, profile, "How light rises across the penumbra; both are nearly a disc's.",
                       "sine", "cubic"),

@@ -28,6 +28,13 @@ constexpr const char* whole_text = R"(
     result = side != 0.0 ? side * gn_coverage(a, b) : 0.0;
 )";
 
+constexpr const char* box_text = R"(
+    vec2 a;
+    vec2 b;
+    float side = gn_soft_volumes_edge(u.light, p_ws, a_ws, b_ws, a, b);
+    result = side != 0.0 ? gn_soft_volumes_box(u.light.kind == uint(GN_LIGHT_RECTANGLE), a, b) : vec4(1.0);
+)";
+
 constexpr const char* quarters_text = R"(
     vec2 a;
     vec2 b;
@@ -41,11 +48,39 @@ constexpr const char* quarters_text = R"(
     }
 )";
 
+/// How the sums become V: GLSL.
+std::string expression_of(const GnLight& light, bool quarters, bool bounded) {
+    if (bounded) {
+        return fmt::format("gn_soft_volumes_bounded(hard, soft, gn_soft_volumes_box_share({}, more))",
+                           light.kind == GN_LIGHT_RECTANGLE);
+    }
+    return quarters ? "gn_soft_volumes_light4(hard, soft)" : "gn_soft_volumes_light(hard, soft)";
+}
+
+/// The box around all that edges bound, on the light, a sample.
+TextureHandle add_boxes(const FrameInput& input, const VolumeBuffers& buffers) {
+    EdgeRegionPass pass{.name = "soft-volumes: boxes",
+                        .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
+                        .functions = "",
+                        .fragment = box_text,
+                        .result = "vec4",
+                        .extra = {},
+                        .blend = Blend::min};
+    pass.extra.constant("GnLight", "light", input.light().shape);
+    const TextureHandle boxes = input.graph.create(TextureDesc{.name = "soft-volumes boxes",
+                                                               .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                               .width = input.samples.width,
+                                                               .height = input.samples.height});
+    add_edge_regions(input, buffers, pass, boxes, {.color = vec4(1)});
+    return boxes;
+}
+
 Visibility add_soft_volumes(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnSoftVolumesParams>("soft-volumes");
     const GnLight& light = input.light().shape;
-    const HardShadow hard = add_hard_shadow(input, params.closed != 0);
+    HardShadow hard = add_hard_shadow(input, params.closed != 0);
     if (!has_extent(light)) {
+        add_edge_sides(input, hard.buffers, 1, hard.visibility);
         return hard.visibility;
     }
 
@@ -72,12 +107,24 @@ Visibility add_soft_volumes(const FrameInput& input, const Recipe& recipe) {
                                        .width = input.samples.width,
                                        .height = input.samples.height});
     add_edge_regions(input, hard.buffers, pass, hidden, {});
-    return add_edge_resolve(
-        input, hard.visibility.image, hidden,
-        {.name = "soft-volumes: resolve",
-         .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
-         .expression = quarters ? "gn_soft_volumes_light4(hard, soft)" : "gn_soft_volumes_light(hard, soft)",
-         .channels = quarters ? 4U : 1U});
+    const std::string expression = expression_of(light, quarters, params.bounded != 0);
+    Visibility result =
+        add_edge_resolve(input, hard.visibility.image, hidden,
+                         {.name = "soft-volumes: resolve",
+                          .includes = "#include \"shadow/direct/soft_volumes/soft_volumes.glsl\"\n",
+                          .expression = expression,
+                          .channels = quarters ? 4U : 1U,
+                          .more = params.bounded != 0 ? add_boxes(input, hard.buffers) : TextureHandle{}});
+    add_edge_sides(input, hard.buffers, 1, result);
+    return result;
+}
+
+std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
+    const auto params = recipe.of<GnSoftVolumesParams>("soft-volumes");
+    return params.bounded != 0 && params.regions == GN_SOFT_VOLUMES_FOUR
+               ? "soft-volumes.bounded=true holds what is hidden to one box on the whole light; take it with "
+                 "soft-volumes.regions=one"
+               : "";
 }
 
 }  // namespace
@@ -93,6 +140,7 @@ const Part& direct_soft_volumes() {
         p.citation = "AA03";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = edge_sides();
         p.params = param_table<GnSoftVolumesParams>({
             GN_CHOICE(
                 GnSoftVolumesParams, coverage,
@@ -103,12 +151,16 @@ const Part& direct_soft_volumes() {
             GN_CHOICE(GnSoftVolumesParams, regions,
                       "four sums by quarters of the light, so that casters one before the other darken less.", "one",
                       "four"),
+            GN_PARAM(GnSoftVolumesParams, bounded, boolean, 0, 1, "",
+                     "No more is hidden or shown than the box around it on the light holds: casters one before the "
+                     "other count less often twice, for a second drawing of the wedges."),
             GN_PARAM(GnSoftVolumesParams, closed, boolean, 0, 1, "",
                      "Solids cast with the half of their surface that light meets first; off counts every triangle."),
         });
         p.params_type = "GnSoftVolumesParams";
         p.glsl = "shadow/direct/soft_volumes/soft_volumes.glsl";
         p.add_direct = add_soft_volumes;
+        p.refuses = refuses;
         p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "soft-volumes"); };
         return p;
     }();

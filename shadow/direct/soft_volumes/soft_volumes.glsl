@@ -46,6 +46,42 @@ GN_FN bool gn_soft_volumes_quarter(vec2 signs, GN_INOUT(vec2) a, GN_INOUT(vec2) 
     return true;
 }
 
+// Whether a place lies on the light's border.
+GN_FN bool gn_soft_volumes_on_border(bool square, vec2 p) {
+    return (square ? max(abs(p.x), abs(p.y)) : sqrt(dot(p, p))) > 0.999f;
+}
+
+// The box (low.xy, -high.xy) around what a segment bounds on the light: its ends, and where one lies on the border, so that the
+// caster goes on outside, the border beyond the segment as well. Boxes of several segments join by their minimum.
+GN_FN vec4 gn_soft_volumes_box(bool square, vec2 a, vec2 b) {
+    vec4 box = min(vec4(a.x, a.y, -a.x, -a.y), vec4(b.x, b.y, -b.x, -b.y));
+    if (!gn_soft_volumes_on_border(square, a) && !gn_soft_volumes_on_border(square, b)) {
+        return box;
+    }
+    // Eight places of the border, of which those in the sector count: corners and middles of the sides.
+    float turn = gn_cross2(a, b) >= 0.0f ? 1.0f : -1.0f;
+    for (int i = 0; i < 8; ++i) {
+        float angle = 0.78539816f * float(i);
+        vec2 p = vec2(cos(angle), sin(angle));
+        p *= square ? 1.0f / max(abs(p.x), abs(p.y)) : 1.0f;
+        bool within = turn * gn_cross2(a, p) >= 0.0f && turn * gn_cross2(p, b) >= 0.0f;
+        box = within ? min(box, vec4(p.x, p.y, -p.x, -p.y)) : box;
+    }
+    return box;
+}
+
+// The share of the light that a box holds; it may be a little more than what of it lies on a disc.
+GN_FN float gn_soft_volumes_box_share(bool square, vec4 box) {
+    float area = max(-box.z - box.x, 0.0f) * max(-box.w - box.y, 0.0f);
+    return min(area / (square ? 4.0f : 3.14159265f), 1.0f);
+}
+
+// V where the box around all that edges bound holds this share: one before the other, casters hide no more than it, nor do
+// they show more. [FBP06] section 4.3
+GN_FN float gn_soft_volumes_bounded(float hard, float hidden, float share) {
+    return hard > 0.5f ? 1.0f - clamp(hidden, 0.0f, share) : clamp(-hidden, 0.0f, share);
+}
+
 // V from what the hard shadow says and what edges add to what is hidden.
 GN_FN float gn_soft_volumes_light(float hard, float hidden) {
     return clamp(hard - hidden, 0.0f, 1.0f);

@@ -15,7 +15,8 @@ struct GnSoftVolumesParams {
     int coverage GN_DEFAULT(GN_SOFT_VOLUMES_EXACT);
     int table GN_DEFAULT(16);                     ///< entries along each of the table's four axes
     int regions GN_DEFAULT(GN_SOFT_VOLUMES_ONE);  ///< four: what is hidden is summed by quarters of the light [FBP06]
-    int closed GN_DEFAULT(1);                     ///< 1: a solid casts with one side of its surface only
+    int bounded GN_DEFAULT(0);  ///< 1: no more is hidden, or shown, than the box around it on the light holds [FBP06]
+    int closed GN_DEFAULT(1);   ///< 1: a solid casts with one side of its surface only
 };
 
 #endif

@@ -168,5 +168,46 @@ TEST(SoftVolumesRendered, casters_one_behind_the_other_hide_their_sum) {
     EXPECT_LE(far, 4U);
 }
 
+TEST(SoftVolumesLaws, a_box_holds_what_a_caster_hides) {
+    // A half-plane whose edge runs along y at x = 0.25, with what lies to the left hidden: seen from the middle, which is hidden
+    // too, what is shown lies to the right.
+    const vec4 half = gn_soft_volumes_box(true, {0.25F, -1}, {0.25F, 1});
+    EXPECT_NEAR(gn_soft_volumes_box_share(true, half), 0.375F, 1e-6F);
+    EXPECT_EQ(half, vec4(0.25F, -1, -1, -1));
+    // A caster within the light is bounded by its edges alone; its mirror image turns the other way and has the same box.
+    const vec4 small = gn_soft_volumes_box(true, {0.2F, 0.1F}, {0.6F, 0.5F});
+    EXPECT_EQ(small, vec4(0.2F, 0.1F, -0.6F, -0.5F));
+    EXPECT_EQ(gn_soft_volumes_box(true, {0.6F, 0.5F}, {0.2F, 0.1F}), small);
+    // On a disc the border bulges beyond the ends.
+    const float s = std::sqrt(0.5F);
+    EXPECT_NEAR(gn_soft_volumes_box(false, {s, -s}, {s, s}).z, -1, 1e-6F);
+    // V is held to the share from both sides.
+    EXPECT_EQ(gn_soft_volumes_bounded(1, 0.8F, 0.5F), 0.5F);
+    EXPECT_EQ(gn_soft_volumes_bounded(0, -0.8F, 0.5F), 0.5F);
+    EXPECT_EQ(gn_soft_volumes_bounded(1, 0.3F, 0.5F), 0.7F);
+}
+
+TEST(SoftVolumesRendered, boxes_and_quarters_and_pieces_err_less_where_casters_overlap) {
+    const auto rms = [](const std::string& recipe) {
+        return from_closed_form(test::compare("overlap", recipe, {.width = 48, .height = 48, .samples = 16}), 1).rms;
+    };
+    const double plain = rms("soft-volumes");
+    EXPECT_LT(rms("soft-volumes,soft-volumes.bounded=true"), 0.9 * plain);
+    EXPECT_LT(rms("soft-volumes,soft-volumes.regions=four"), 0.8 * plain);
+    const double four = rms("soft-volumes-split");
+    EXPECT_LT(four, 0.6 * plain);
+    EXPECT_LT(rms("soft-volumes-split,split.side=3"), four);
+}
+
+TEST(SoftVolumesRendered, one_box_for_four_regions_is_refused) {
+    const Scene& scene = test::built_in("slab");
+    SceneGpu uploaded = upload_scene(test::device(), scene);
+    const FrameResult frame =
+        render_frame(test::device(), uploaded, scene.cameras.front(),
+                     load_recipe("soft-volumes,soft-volumes.regions=four,soft-volumes.bounded=true"),
+                     {.width = 8, .height = 8, .picture = false});
+    EXPECT_NE(frame.refused.front().find("take it with soft-volumes.regions=one"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gn

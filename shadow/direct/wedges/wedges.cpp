@@ -12,8 +12,9 @@ namespace {
 
 Visibility add_wedges(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnWedgesParams>("wedges");
-    const HardShadow hard = add_hard_shadow(input, params.closed != 0);
+    HardShadow hard = add_hard_shadow(input, params.closed != 0);
     if (!has_extent(input.light().shape)) {
+        add_edge_sides(input, hard.buffers, 1.5F, hard.visibility);
         return hard.visibility;
     }
     EdgeRegionPass pass{
@@ -28,8 +29,10 @@ Visibility add_wedges(const FrameInput& input, const Recipe& recipe) {
                                                                 .width = input.samples.width,
                                                                 .height = input.samples.height});
     add_edge_regions(input, hard.buffers, pass, hidden, {});
-    return add_edge_resolve(input, hard.visibility.image, hidden,
-                            {.name = "wedges: resolve", .includes = "", .expression = "hard - soft"});
+    Visibility result = add_edge_resolve(input, hard.visibility.image, hidden,
+                                         {.name = "wedges: resolve", .includes = "", .expression = "hard - soft"});
+    add_edge_sides(input, hard.buffers, 1.5F, result);
+    return result;
 }
 
 }  // namespace
@@ -45,6 +48,7 @@ const Part& direct_wedges() {
         p.citation = "AA02";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = edge_sides();
         p.params = param_table<GnWedgesParams>({
             GN_CHOICE(GnWedgesParams, turn,
                       "asin touches the sphere around the light; atan is exact for a rectangle above a parallel edge.",
