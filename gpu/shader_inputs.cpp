@@ -10,6 +10,7 @@ std::string_view image_format(VkFormat format) {
         case VK_FORMAT_R32_SFLOAT: return "r32f";
         case VK_FORMAT_R32G32_SFLOAT: return "rg32f";
         case VK_FORMAT_R32G32B32A32_SFLOAT: return "rgba32f";
+        case VK_FORMAT_R32G32_UINT: return "rg32ui";
         case VK_FORMAT_R16G16B16A16_SFLOAT: return "rgba16f";
         case VK_FORMAT_R16G16_SFLOAT: return "rg16f";
         case VK_FORMAT_R16G16_UNORM: return "rg16";
@@ -44,11 +45,12 @@ ShaderInputs& ShaderInputs::texture(std::string_view type, std::string_view name
 
 ShaderInputs& ShaderInputs::texels(const Device& device, VkFormat format, std::string_view shape, std::string_view name,
                                    TextureHandle handle) {
+    const std::string sign = image_format(format).ends_with("ui") ? "u" : "";
     // A software driver fetches texels several times faster as those of an image.
     if (device.info().cpu && !image_format(format).empty()) {
-        image(image_format(format), "readonly", std::string("image").append(shape), name, handle);
+        image(image_format(format), "readonly", (sign + "image").append(shape), name, handle);
     } else {
-        texture(std::string("sampler").append(shape), name, handle);
+        texture((sign + "sampler").append(shape), name, handle);
     }
     own().entries.back().texels = true;
     return *this;

@@ -36,6 +36,8 @@ struct SceneGpu {
     Buffer uvs;                       ///< vec2 per vertex
     Buffer colors;                    ///< vec4 per vertex, or a single white one; shaders clamp the index
     Buffer indices;                   ///< uvec3 per triangle
+    Buffer face_normals;              ///< vec3 per triangle: unit, on the side of its front; 0 where it has no area
+    Buffer emission;                  ///< vec3 per object: emitted radiance, cd/m^2
     std::vector<Texture2D> textures;  ///< as Scene::textures, RGBA8 sRGB, mipmapped; index 0 of an empty scene is white
     Texture2D white;
     /// What is drawn: no two uploads have the same. Whoever writes into the buffers above takes a new one from next_version;
@@ -55,7 +57,7 @@ struct SceneGpu {
 /// A version that no geometry has had in this process.
 std::uint64_t next_version();
 SceneGpu upload_scene(Device& device, const Scene& scene);
-/// Brings positions and normals of the objects whose version is another than what was brought before (shadow/scene/move.h) to
+/// Brings positions and both normals of the objects whose version is another than what was brought before (shadow/scene/move.h) to
 /// the GPU, as a new version that tells where they moved; waits for the device. Where no object did, nothing is done.
 void refresh_scene(Device& device, SceneGpu& scene);
 
@@ -65,6 +67,8 @@ struct LightReach;    // shadow/geometry/potential_receivers.h
 /// The scene's buffers in one frame's graph.
 struct SceneHandles {
     BufferHandle positions, normals, uvs, colors, indices;
+    BufferHandle face_normals;  ///< vec3 a triangle: unit, on the side of its front; 0 where it has no area
+    BufferHandle emission;      ///< vec3 an object: emitted radiance, cd/m^2
     std::vector<TextureHandle> textures;
     TextureHandle white;
     std::uint64_t version = 0;  ///< SceneGpu::version
@@ -97,11 +101,10 @@ struct ViewSamples {
     GnViewConstants constants;
     TextureHandle position;  ///< RGBA32F: p_ws, 0 (none), 1 (surface) or 2 (surface that receives no shadow)
     TextureHandle normal;    ///< RGBA32F: geometric normal n_ws towards the camera, w = distance along the view axis
-    TextureHandle shading_normal;  ///< RGBA16F: interpolated normal, towards the camera
-    TextureHandle albedo;          ///< RGBA8 sRGB: base colour
-    TextureHandle material;        ///< RGBA8: roughness, metallic, object id (low byte, high byte)
-    TextureHandle emission;        ///< RGBA16F: emitted radiance, cd/m^2
-    TextureHandle depth;           ///< D32_SFLOAT_S8: reversed depth of the camera; stencil is free for direct parts
+    TextureHandle albedo;    ///< RGBA8 sRGB: base colour, metallic
+    TextureHandle
+        surface;          ///< RG32UI: interpolated normal towards the camera, object and roughness (view/surface.glsl)
+    TextureHandle depth;  ///< D32_SFLOAT_S8: reversed depth of the camera; stencil is free for direct parts
     /// Clip space of the frame before (x, y and w of it count), from this frame's world space, where whoever lends the samples
     /// says so; else it is what the history remembers (shadow/receiver/reprojection.h).
     std::optional<mat4> before_cs_from_ws{};

@@ -48,7 +48,8 @@ TEST_P(Moved, CastersTakeTheirShadowAlong) {
     EXPECT_EQ(draw(gpu, recipe, &history).visibility.front().values, still.visibility.front().values);
 
     // What was kept knows of the move: the frame is that of a scene that always stood so.
-    move_object(scene, 1, glm::translate(mat4(1), vec3(2.5F, 0.25F, -1)));
+    const mat4 turn = glm::rotate(mat4(1), 0.3F, vec3(0, 1, 0));
+    move_object(scene, 1, glm::translate(mat4(1), vec3(2.5F, 0.25F, -1)) * turn);
     refresh_scene(test::device(), gpu);
     const FrameResult moved = draw(gpu, recipe, &history);
     SceneGpu anew = upload_scene(test::device(), scene);

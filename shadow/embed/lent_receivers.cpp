@@ -56,7 +56,7 @@ ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, cons
     const auto shader = compute_once(prepared, "lent receivers", key, [&] {
         return fmt::format("#define GN_REVERSED {}\n#define GN_PERSPECTIVE {}\n#define GN_NORMALS {}\n",
                            form.reversed_depth, perspective, static_cast<int>(form.normals)) +
-               "#include \"shadow/embed/lent_receivers.glsl\"\n" + inputs.text() +
+               "#include \"shadow/receiver/octahedral.glsl\"\n" + inputs.text() +
                "#include \"shadow/embed/lent_pixels.glsl\"\n";
     });
     graph.add_pass(

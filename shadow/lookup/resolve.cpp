@@ -55,8 +55,7 @@ void main() {
     GnChoice choice = GnChoice(0, -1, 0.0);
     if (counted) {
 #ifdef GN_CASTER_IDS
-        vec2 id_bytes = round(texelFetch(gbuffer_material, pixel, 0).zw * 255.0);
-        receiver.object = int(id_bytes.x) + 256 * int(id_bytes.y);
+        receiver.object = int(gn_surface_object(gbuffer_surface_texel(pixel).xy));
 #endif
         choice = GN_CHOOSE(receiver, placement);
         v = visibility_by(receiver, choice);
@@ -152,7 +151,8 @@ ShaderInputs inputs_of(const FrameInput& input, const Recipe& recipe, const Ligh
         inputs.texture("sampler2DArray", offer_name(offer.name), offer.texture, offer.sampler);
     }
     if (recipe.casters == Casters::ids) {
-        inputs.texture("sampler2D", "gbuffer_material", lent(input.samples.material, "material"));
+        inputs.texels(input.device, VK_FORMAT_R32G32_UINT, "2D", "gbuffer_surface",
+                      lent(input.samples.surface, "object"));
     }
     for (const auto& [part, name] : {std::pair{recipe.lookup, "lookup_params"}, {recipe.map, "map_params"}}) {
         if (!part->params_type.empty()) {
@@ -174,7 +174,8 @@ RasterDesc resolve_shader(const FrameInput& input, const Recipe& recipe, const L
     const Part& lookup = *recipe.lookup;
     std::string text = expect_text(input.device) + channels_text(lookup.channels) + receiver_defines(recipe, views) +
                        (recipe.casters == Casters::ids ? "#define GN_CASTER_IDS\n" : "");
-    text += "#include \"shadow/view/view.glsl\"\n" + placement_text(placement, recipe);
+    text += include_line("shadow/view/view.glsl") + include_line("shadow/view/surface.glsl") +
+            placement_text(placement, recipe);
     text += prologue_of(*recipe.map, recipe) + include_line(recipe.map->glsl);
     // A lookup that filters calls the map's function, so that the uniform block must stand before it.
     const std::string lookup_header = lookup.params_type.empty() || lookup.glsl.empty()

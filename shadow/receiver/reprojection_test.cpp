@@ -6,6 +6,7 @@
 #include "shadow/frame/history.h"
 #include "shadow/receiver/reprojection.glsl"
 #include "shadow/scene/move.h"
+#include "shadow/view/read_back.h"
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
@@ -94,6 +95,90 @@ TEST(Reprojection, FindsWhatMovedUnderACameraThatMoved) {
     EXPECT_EQ(find(now, now, *rest, true).same, find(now, now, *rest, true).shown);
     history.clear();
     EXPECT_FALSE(way_back().has_value()) << "after a cut";
+}
+
+/// Frames that ask twice each, as two lights do, for what the frame before saw.
+class SamplesKept {
+  public:
+    explicit SamplesKept(const Scene& scene) : scene_(scene), gpu_(upload_scene(test::device(), scene)) {}
+
+    /// Draws a frame. `lent`: its images belong to a renderer.
+    struct Seen {
+        CpuSamples now;
+        std::vector<std::byte> before, before_normals;  ///< empty where there are none
+    };
+    Seen draw(uint size, bool lent = false) {
+        FrameGraph graph(test::device());
+        const SceneHandles handles = import_scene(graph, gpu_);
+        ViewSamples samples = add_view_samples(graph, gpu_, handles, scene_.cameras.front(), size, size);
+        if (lent) {
+            samples.position = lend(graph, samples.position, positions_);
+            samples.normal = lend(graph, samples.normal, normals_);
+        }
+        const FrameInput input{test::device(), graph, scene_, handles, samples, nullptr, 0, &history_};
+        const auto before = samples_before(input), again = samples_before(input);
+        EXPECT_EQ(before.has_value(), again.has_value());
+        graph.keep(samples.position);
+        graph.keep(samples.normal);
+        graph.execute(false);
+        graph.execute(false);  // a frame that is run again finds what it found
+        Seen seen{read_samples(graph, samples), {}, {}};
+        if (before) {
+            seen.before = graph.download(before->position);
+            seen.before_normals = graph.download(before->normal);
+        }
+        history_.advance();
+        return seen;
+    }
+
+  private:
+    /// A texture of the renderer's with what the image holds.
+    TextureHandle lend(FrameGraph& graph, TextureHandle image, Texture2D& own) {
+        graph.place(image, [&](const TextureDesc& wanted) -> Texture2D& {
+            TextureDesc desc = wanted;
+            desc.name = "the renderer's";
+            desc.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+            if (own.vk() == VK_NULL_HANDLE) {
+                own = Texture2D(test::device(), desc);
+            }
+            return own;
+        });
+        return image;
+    }
+
+    const Scene& scene_;
+    SceneGpu gpu_;
+    History history_{test::device()};
+    Texture2D positions_, normals_;
+};
+
+std::vector<std::byte> bytes_of(const std::vector<vec4>& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    return {bytes.begin(), bytes.end()};
+}
+
+TEST(Reprojection, KeepsWhatTheFrameBeforeSaw) {
+    const test::ValidationGuard guard;
+    for (const bool lent : {false, true}) {
+        Scene scene = box_on_ground();
+        SamplesKept frames(scene);
+        const auto first = frames.draw(32, lent);
+        EXPECT_TRUE(first.before.empty()) << "nothing came before";
+        scene.cameras.front().position_ws.x += 1;
+        const auto second = frames.draw(32, lent);
+        EXPECT_EQ(second.before, bytes_of(first.now.position_ws));
+        EXPECT_EQ(second.before_normals, bytes_of(first.now.normal_ws));
+        EXPECT_NE(second.before, bytes_of(second.now.position_ws)) << "the camera moved";
+        scene.cameras.front().position_ws.x += 1;
+        EXPECT_EQ(frames.draw(32, lent).before, bytes_of(second.now.position_ws));
+    }
+}
+
+TEST(Reprojection, KeepsNothingOfAnotherSize) {
+    const Scene scene = box_on_ground();
+    SamplesKept frames(scene);
+    frames.draw(32);
+    EXPECT_TRUE(frames.draw(24).before.empty());
 }
 
 TEST(Reprojection, PointsBehindTheCameraHaveNoPlace) {

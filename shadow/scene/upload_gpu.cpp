@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The scene on the GPU: five buffers and the base colour textures.
+// The scene on the GPU: its buffers and the base colour textures.
 #include "gpu/upload.h"
 #include "shadow/frame/frame.h"
+#include "shadow/view/surface.glsl"
 
 #include <algorithm>
 #include <atomic>
@@ -22,6 +23,31 @@ Texture2D upload_rgba8(Device& device, const std::string& name, const Image8& im
     return upload_texture(device, desc, std::as_bytes(std::span(image.rgba)));
 }
 
+/// Unit, in double precision until it is rounded; 0 where the triangle has no area.
+vec3 face_normal(const Scene& scene, const uvec3& t) {
+    const dvec3 a_ws(scene.positions_ws[t.x]);
+    const dvec3 n_ws = glm::cross(dvec3(scene.positions_ws[t.y]) - a_ws, dvec3(scene.positions_ws[t.z]) - a_ws);
+    const double size = glm::length(n_ws);
+    return size > 0 ? vec3(n_ws / size) : vec3(0);
+}
+
+std::vector<vec3> face_normals(const Scene& scene, std::uint32_t first, std::uint32_t count) {
+    std::vector<vec3> normals_ws;
+    normals_ws.reserve(count);
+    for (const uvec3& t : std::span(scene.triangles).subspan(first, count)) {
+        normals_ws.push_back(face_normal(scene, t));
+    }
+    return normals_ws;
+}
+
+std::vector<vec3> emission(const Scene& scene) {
+    std::vector<vec3> radiance;
+    for (const Object& object : scene.objects) {
+        radiance.push_back(scene.materials[static_cast<std::size_t>(object.material)].emissive);
+    }
+    return radiance;
+}
+
 }  // namespace
 
 std::uint64_t next_version() {
@@ -31,6 +57,10 @@ std::uint64_t next_version() {
 
 SceneGpu upload_scene(Device& device, const Scene& scene) {
     constexpr VkBufferUsageFlags vertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    if (scene.objects.size() > glsl::gn_surface_objects) {
+        fail("scene '{}' has {} objects; view samples can tell {} apart", scene.name, scene.objects.size(),
+             glsl::gn_surface_objects);
+    }
     SceneGpu gpu;
     gpu.scene = &scene;
     gpu.version = next_version();
@@ -44,6 +74,9 @@ SceneGpu upload_scene(Device& device, const Scene& scene) {
     gpu.colors = upload(device, "colors", scene.colors.empty() ? std::vector<vec4>{vec4(1.0F)} : scene.colors);
     gpu.indices = upload(device, "indices", scene.triangles,
                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    gpu.face_normals =
+        upload(device, "face normals", face_normals(scene, 0, static_cast<std::uint32_t>(scene.triangles.size())));
+    gpu.emission = upload(device, "emission", emission(scene));
     for (const Texture& texture : scene.textures) {
         gpu.textures.push_back(upload_rgba8(device, texture.name, texture.image));
     }
@@ -92,10 +125,24 @@ void write_vertices(Device& device, const Buffer& buffer, const std::vector<vec3
     write_buffer(device, buffer, placed);
 }
 
+/// Those of the objects' triangles.
+void write_face_normals(Device& device, const Buffer& buffer, const Scene& scene,
+                        std::span<const std::uint32_t> objects) {
+    std::vector<std::vector<vec3>> normals_ws;
+    std::vector<PlacedBytes> placed;
+    for (const std::uint32_t i : objects) {
+        const Object& object = scene.objects[i];
+        normals_ws.push_back(face_normals(scene, object.first_triangle, object.triangle_count));
+        placed.push_back({object.first_triangle * sizeof(vec3), std::as_bytes(std::span(normals_ws.back()))});
+    }
+    write_buffer(device, buffer, placed);
+}
+
 }  // namespace
 
 void refresh_scene(Device& device, SceneGpu& scene) {
-    std::vector<Vertices> moved;
+    std::vector<std::uint32_t> moved;
+    std::vector<Vertices> vertices;
     std::vector<Box> touched_ws;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.scene->objects[i];
@@ -103,7 +150,8 @@ void refresh_scene(Device& device, SceneGpu& scene) {
         if (object.version == held.version || object.triangle_count == 0) {
             continue;
         }
-        moved.push_back(vertices_of(*scene.scene, object));
+        moved.push_back(static_cast<std::uint32_t>(i));
+        vertices.push_back(vertices_of(*scene.scene, object));
         touched_ws.push_back(held.bounds_ws);
         touched_ws.push_back(object.bounds_ws);
         held = {object.version, object.bounds_ws};
@@ -111,9 +159,10 @@ void refresh_scene(Device& device, SceneGpu& scene) {
     if (moved.empty()) {
         return;
     }
-    const std::vector<Vertices> ranges = joined(std::move(moved));
+    const std::vector<Vertices> ranges = joined(std::move(vertices));
     write_vertices(device, scene.positions, scene.scene->positions_ws, ranges);
     write_vertices(device, scene.normals, scene.scene->normals_ws, ranges);
+    write_face_normals(device, scene.face_normals, *scene.scene, moved);
     const std::uint64_t before = scene.version;
     scene.version = next_version();
     scene.moves->add(before, scene.version, std::move(touched_ws));
@@ -124,7 +173,9 @@ SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {
                          .normals = graph.import(scene.normals),
                          .uvs = graph.import(scene.uvs),
                          .colors = graph.import(scene.colors),
-                         .indices = graph.import(scene.indices)};
+                         .indices = graph.import(scene.indices),
+                         .face_normals = graph.import(scene.face_normals),
+                         .emission = graph.import(scene.emission)};
     for (Texture2D& texture : scene.textures) {
         handles.textures.push_back(graph.import(texture));
     }

@@ -15,28 +15,36 @@ namespace {
 constexpr std::size_t most_lights = 8;
 
 constexpr const char* environment_text = R"(
-vec3 environment(ivec2 pixel, vec4 position) {
+vec3 environment(ivec2 pixel, vec4 position, Seen seen) {
     if (position.w < 0.5) {
         float height = float(pixel.y) / float(u.view.size.y);
         return mix(u.sky.zenith.rgb, u.sky.horizon.rgb, height) * (u.sky.seen * u.environment.intensity / gn_pi);
     }
-    float up = 0.5 + 0.5 * gbuffer_shading_normal_texel(pixel).y;
-    vec3 sky = mix(u.sky.below.rgb, u.sky.above.rgb, up);
-    vec3 radiance = texelFetch(gbuffer_albedo, pixel, 0).rgb * sky * (u.environment.intensity / gn_pi);
-#ifdef GN_EMISSION
-    radiance += gbuffer_emission_texel(pixel).rgb;
-#endif
-    return radiance;
+    vec3 sky = mix(u.sky.below.rgb, u.sky.above.rgb, 0.5 + 0.5 * seen.n_ws.y);
+    return seen.base_color * sky * (u.environment.intensity / gn_pi) + seen.emission;
 }
 )";
 
-constexpr const char* reflect_text = R"(
-vec3 reflected(GnLight light, ivec2 pixel, vec4 position) {
-    vec3 to_eye = normalize(gn_ray_to_eye(u.view, position.xyz));
-    vec3 to_light = gn_to_light(light, position.xyz);
-    vec2 surface = gbuffer_material_texel(pixel).xy;
-    return gn_reflect(gbuffer_shading_normal_texel(pixel).xyz, to_eye, to_light,
-                      texelFetch(gbuffer_albedo, pixel, 0).rgb, surface.x, surface.y);
+/// What all lights shade.
+constexpr const char* seen_text = R"(
+struct Seen {
+    vec3 n_ws, to_eye_ws, base_color, emission;
+    float roughness, metallic;
+};
+Seen seen_at(ivec2 pixel, vec3 p_ws) {
+    uvec2 texel = gbuffer_surface_texel(pixel).xy;
+    Seen seen;
+    vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
+    seen.n_ws = gn_surface_normal(texel);
+    seen.to_eye_ws = normalize(gn_ray_to_eye(u.view, p_ws));
+    seen.base_color = albedo.rgb;
+    seen.metallic = albedo.a;
+    seen.roughness = gn_surface_roughness(texel);
+    seen.emission = vec3(0.0);
+#ifdef GN_EMISSION
+    seen.emission = emission[gn_surface_object(texel)];
+#endif
+    return seen;
 }
 )";
 
@@ -47,7 +55,9 @@ std::string light_text(std::size_t i, uint kind, std::string_view visibility) {
     light.kind = {1}u;
     if (surface && gn_counted(light, position.xyz, normal)) {{
         vec3 v = {2};
-        radiance += light.color.rgb * gn_illuminance(light, position.xyz) * v * reflected(light, pixel, position);
+        radiance += light.color.rgb * gn_illuminance(light, position.xyz) * v *
+                    gn_reflect(seen.n_ws, seen.to_eye_ws, gn_to_light(light, position.xyz), seen.base_color,
+                               seen.roughness, seen.metallic);
     }}
 )",
                        i, kind, visibility);
@@ -87,11 +97,10 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
     const ViewSamples& samples = input.samples;
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, samples);
-    inputs.texels(input.device, VK_FORMAT_R16G16B16A16_SFLOAT, "2D", "gbuffer_shading_normal", samples.shading_normal);
-    inputs.texels(input.device, VK_FORMAT_R8G8B8A8_UNORM, "2D", "gbuffer_material", samples.material);
+    inputs.texels(input.device, VK_FORMAT_R32G32_UINT, "2D", "gbuffer_surface", samples.surface);
     inputs.texture("sampler2D", "gbuffer_albedo", samples.albedo);
     if (adds_emission(input, pass)) {
-        inputs.texels(input.device, VK_FORMAT_R16G16B16A16_SFLOAT, "2D", "gbuffer_emission", samples.emission);
+        inputs.buffer("readonly buffer", "Emission", "vec3 emission[];", input.handles.emission);
     }
     if (pass.before.valid()) {
         inputs.texels(input.device, VK_FORMAT_R32G32B32A32_SFLOAT, "2D", "before", pass.before);
@@ -114,17 +123,19 @@ std::string compose(const FrameInput& input, const ShadingPass& pass, const Shad
         lights += light_text(i, pass.lights[i].shape.kind, visibility_text(input, i, pass.visibility[i]));
     }
     return std::string(adds_emission(input, pass) ? "#define GN_EMISSION\n" : "") +
-           "#include \"shadow/view/view.glsl\"\n#include \"shadow/shading/shading.glsl\"\n" + inputs.text() +
-           "layout(location = 0) out vec4 picture;\n" + (pass.before.valid() ? "" : environment_text) + reflect_text +
+           include_line("shadow/view/view.glsl") + include_line("shadow/view/surface.glsl") +
+           include_line("shadow/shading/shading.glsl") + inputs.text() + "layout(location = 0) out vec4 picture;\n" +
+           seen_text + (pass.before.valid() ? "" : environment_text) +
            R"(
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 position = gbuffer_position_texel(pixel);
     vec3 normal = gbuffer_normal_texel(pixel).xyz;
     bool surface = position.w > 0.5;
+    Seen seen = seen_at(pixel, position.xyz);
     GnLight light;
     vec3 radiance = )" +
-           (pass.before.valid() ? "before_texel(pixel).rgb" : "environment(pixel, position)") + ";\n" + lights +
+           (pass.before.valid() ? "before_texel(pixel).rgb" : "environment(pixel, position, seen)") + ";\n" + lights +
            "    picture = vec4(radiance, 1.0);\n}\n";
 }
 

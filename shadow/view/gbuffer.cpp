@@ -19,22 +19,26 @@ layout(location = 0) in vec3 in_position_ws;
 layout(location = 0) out vec3 out_position_ws;
 layout(location = 1) out vec3 out_normal_ws;
 layout(location = 2) out vec2 out_uv;
-layout(location = 3) out vec4 out_color;
+layout(location = 3) flat out vec3 out_corner_ws;
+#ifdef GN_COLORED
+layout(location = 4) out vec4 out_color;
+#endif
 invariant gl_Position;
 void main() {
     gl_Position = gn_view_position(u.view.cs_from_ws, vec4(in_position_ws, 1.0));
-    out_position_ws = in_position_ws;
+    out_position_ws = out_corner_ws = in_position_ws;
     out_normal_ws = normals[gl_VertexIndex];
     out_uv = uvs[gl_VertexIndex];
-    out_color = colors[min(gl_VertexIndex, colors.length() - 1)];
+#ifdef GN_COLORED
+    out_color = colors[gl_VertexIndex];
+#endif
 }
 )";
 
 struct Push {
     vec4 base_color;
-    vec3 emissive;
     float roughness, metallic, alpha_cutoff;
-    std::uint32_t first_triangle, object_id;
+    std::uint32_t first_triangle, object;
     float surface;
 };
 
@@ -54,10 +58,10 @@ constexpr std::array rounds{Faces{VK_CULL_MODE_BACK_BIT, false, false}, Faces{VK
 constexpr float push_units = 4;
 constexpr float push_pixels = 4.0F / 256;
 
-/// What a material leaves out: most are neither tested for alpha, which keeps hidden fragments from being left out, nor
-/// have a texture.
-struct Surface {
-    bool masked, textured;
+/// What is left out where it is not there: most materials are neither tested for alpha, which keeps hidden fragments from
+/// being left out, nor have a texture, and most scenes no colours by vertex.
+struct Variant {
+    bool masked, textured, colored;
 };
 
 /// What both stages read. The texture is set anew by every draw that reads one.
@@ -67,23 +71,23 @@ ShaderInputs gbuffer_inputs(const GnViewConstants& view, const SceneHandles& han
         .buffer("readonly buffer", "Normals", "vec3 normals[];", handles.normals)
         .buffer("readonly buffer", "Uvs", "vec2 uvs[];", handles.uvs)
         .buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors)
-        .buffer("readonly buffer", "Positions", "vec3 positions[];", handles.positions)
-        .buffer("readonly buffer", "Indices", "uint indices[];", handles.indices)
+        .buffer("readonly buffer", "FaceNormals", "vec3 face_normals[];", handles.face_normals)
         .texture("sampler2D", "base_color_texture", handles.white);
     return inputs;
 }
 
-RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
+RasterDesc gbuffer_pipeline(const Faces& faces, const Variant& variant) {
     RasterDesc desc;
     desc.cull = faces.culled;
     desc.depth_bias = faces.pushed;
     desc.color_mask = faces.depth_only ? 0 : 0xF;
-    const std::string head = include_line("shadow/view/view.glsl") + gbuffer_inputs({}, {}).text();
+    const std::string head = (variant.colored ? "#define GN_COLORED\n" : "") + include_line("shadow/view/view.glsl") +
+                             include_line("shadow/view/surface.glsl") + gbuffer_inputs({}, {}).text();
     desc.vertex = {ShaderKind::vertex, "gbuffer.vert", head + vertex_text};
-    if (surface.masked || !faces.depth_only) {
+    if (variant.masked || !faces.depth_only) {
         desc.fragment = ShaderSource{ShaderKind::fragment, "gbuffer.frag",
-                                     std::string(surface.masked ? "#define GN_MASKED\n" : "") +
-                                         (surface.textured ? "#define GN_TEXTURED\n" : "") + head +
+                                     std::string(variant.masked ? "#define GN_MASKED\n" : "") +
+                                         (variant.textured ? "#define GN_TEXTURED\n" : "") + head +
                                          include_line("shadow/view/gbuffer.glsl")};
     }
     desc.depth_test = desc.depth_write = true;
@@ -93,18 +97,18 @@ RasterDesc gbuffer_pipeline(const Faces& faces, const Surface& surface) {
     return sealed(desc);
 }
 
-/// By round, masked and textured.
-const RasterDesc& pipeline(std::size_t round, const Surface& surface) {
+/// By round and variant.
+const RasterDesc& pipeline(std::size_t round, const Variant& variant) {
     static const auto all = [] {
-        std::array<std::array<RasterDesc, 4>, rounds.size()> made;
+        std::array<std::array<RasterDesc, 8>, rounds.size()> made;
         for (std::size_t i = 0; i < rounds.size(); ++i) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                made[i][k] = gbuffer_pipeline(rounds[i], {k >= 2, k % 2 == 1});
+            for (std::size_t k = 0; k < 8; ++k) {
+                made[i][k] = gbuffer_pipeline(rounds[i], {(k & 4) != 0, (k & 2) != 0, (k & 1) != 0});
             }
         }
         return made;
     }();
-    return all[round][(surface.masked ? 2U : 0U) + (surface.textured ? 1U : 0U)];
+    return all[round][(variant.masked ? 4U : 0U) + (variant.textured ? 2U : 0U) + (variant.colored ? 1U : 0U)];
 }
 
 TextureHandle target(FrameGraph& graph, const char* name, VkFormat format, uint width, uint height) {
@@ -123,7 +127,7 @@ void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, 
         const Material& material = scene.materials[static_cast<std::size_t>(object.material)];
         const bool masked = is_masked(scene, object);
         const bool textured = material.base_color_texture >= 0;
-        const RasterDesc& wanted = pipeline(round, {masked, textured});
+        const RasterDesc& wanted = pipeline(round, {masked, textured, !scene.colors.empty()});
         if (&wanted != bound) {
             r.bind(wanted);
             bound = &wanted;
@@ -132,9 +136,8 @@ void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, 
             const BaseColor color = base_color(scene, handles, material);
             r.set("base_color_texture", color.texture, color.sampler);
         }
-        r.push_value(Push{material.base_color, material.emissive, material.roughness, material.metallic,
-                          alpha_test(material).cutoff, object.first_triangle, static_cast<std::uint32_t>(i),
-                          object.receives ? 1.0F : 2.0F});
+        r.push_value(Push{material.base_color, material.roughness, material.metallic, alpha_test(material).cutoff,
+                          object.first_triangle, static_cast<std::uint32_t>(i), object.receives ? 1.0F : 2.0F});
         r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
     }
 }
@@ -176,18 +179,15 @@ ViewSamples add_view_samples(FrameGraph& graph, const SceneGpu& scene, const Sce
     samples.constants = view_constants(camera, width, height);
     samples.position = target(graph, "position", VK_FORMAT_R32G32B32A32_SFLOAT, width, height);
     samples.normal = target(graph, "normal", VK_FORMAT_R32G32B32A32_SFLOAT, width, height);
-    samples.shading_normal = target(graph, "shading normal", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
     samples.albedo = target(graph, "albedo", VK_FORMAT_R8G8B8A8_SRGB, width, height);
-    samples.material = target(graph, "material", VK_FORMAT_R8G8B8A8_UNORM, width, height);
-    samples.emission = target(graph, "emission", VK_FORMAT_R16G16B16A16_SFLOAT, width, height);
+    samples.surface = target(graph, "surface", VK_FORMAT_R32G32_UINT, width, height);
     samples.depth = target(graph, "depth", VK_FORMAT_D32_SFLOAT_S8_UINT, width, height);
 
     const ShaderInputs inputs = gbuffer_inputs(samples.constants, handles);
     graph.add_pass(
         "view samples",
         [&](PassBuilder& pass) {
-            for (const TextureHandle color : {samples.position, samples.normal, samples.shading_normal, samples.albedo,
-                                              samples.material, samples.emission}) {
+            for (const TextureHandle color : {samples.position, samples.normal, samples.albedo, samples.surface}) {
                 pass.color(color, Load::clear);
             }
             pass.depth(samples.depth, Load::clear, {.depth = 0.0F});

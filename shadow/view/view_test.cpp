@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shadow/view/surface.glsl"
 #include "tests/rig.h"
 
 namespace gn {
@@ -34,6 +35,18 @@ TEST(ViewSamples, LieInTheScenesPlanesToRounding) {
         }
         RecordProperty(std::string("worst_ulps_") + name, std::to_string(worst_ulps));
         EXPECT_LT(worst_ulps, 4) << name;
+    }
+}
+
+/// Every number that a surface is packed from comes back: the object's exactly, roughness to half of its step.
+TEST(ViewSamples, ASurfaceComesBackFromSixtyFourBits) {
+    for (const std::uint32_t object : {0U, 1U, 65536U, glsl::gn_surface_objects - 1}) {
+        for (const float roughness : {0.0F, 0.3F, 1.0F}) {
+            const uvec2 surface = glsl::gn_surface(vec3(0.6F, -0.8F, 0), object, roughness);
+            EXPECT_EQ(glsl::gn_surface_object(surface), object);
+            EXPECT_NEAR(glsl::gn_surface_roughness(surface), roughness, 0.5 / 255 + 1e-6);
+            EXPECT_NEAR(glsl::gn_surface_normal(surface).y, -0.8F, 1e-4);
+        }
     }
 }
 
