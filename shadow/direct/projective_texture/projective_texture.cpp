@@ -46,10 +46,10 @@ void main() {
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
         v = 1.0;
-        vec2 id = gbuffer_material_texel(pixel).ba * 255.0 + 0.5;
+        uint object = gn_surface_object(gbuffer_surface_texel(pixel).xy);
         int view = GN_CHOOSE(receiver, placement).first;
         GnProjected p = gn_project(receiver, views[view], u.bias);
-        if (p.inside && receives[int(id.x) + 256 * int(id.y)] != 0u) {
+        if (p.inside && receives[object] != 0u) {
             v = light_at(views[view], p);
         }
     }
@@ -137,8 +137,7 @@ Visibility add_projective_texture(const FrameInput& input, const Recipe& recipe)
 
     Visibility result{create_visibility(input.graph, input.samples)};
     ShaderInputs inputs = sample_inputs(input, recipe, views);
-    inputs.texels(input.device, VK_FORMAT_R8G8B8A8_UNORM, "2D", "gbuffer_material",
-                  lent(input.samples.material, "material"));
+    inputs.texels(input.device, VK_FORMAT_R32G32_UINT, "2D", "gbuffer_surface", lent(input.samples.surface, "object"));
     inputs.texture("sampler2DArray", "occluders", picture)
         .image("r32f", "writeonly", "image2D", "visibility", result.image)
         .block("readonly buffer", "Receives", "uint receives[];", std::as_bytes(std::span(*receives)));
@@ -146,7 +145,8 @@ Visibility add_projective_texture(const FrameInput& input, const Recipe& recipe)
     const std::string functions = sample_functions(input, recipe, views);
     const Hasher shader_key = hashed(inputs).text(defines).text(functions).text(views.part->id);
     const auto shader = compute_once(input.prepared, "projective-texture.comp", shader_key, [&] {
-        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
+        return defines + include_line("shadow/view/view.glsl") + include_line("shadow/view/surface.glsl") +
+               placement_text(*views.part, recipe) +
                include_line("shadow/direct/projective_texture/projective_texture.glsl") + inputs.text() + functions +
                text;
     });
