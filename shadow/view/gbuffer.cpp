@@ -2,8 +2,8 @@
 // The view samples: one G-buffer of what each pixel of the view sees.
 //
 // How exact are the positions? The interpolated position is moved along the triangle's exact normal into the triangle's
-// plane (the vertices are the very floats that the truth traces), so what remains is rounding: less than four units in
-// the last place of the coordinates or the triangle's edges, whichever are larger (view_test.cpp holds it to that).
+// plane (the vertices are the very floats that the truth traces), so what remains is the rounding of the coordinates: half a
+// unit in the last place each (view_test.cpp holds it to that).
 #include "gpu/vk_names.h"
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/draw.h"

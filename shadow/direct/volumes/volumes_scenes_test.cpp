@@ -8,8 +8,8 @@
 #include "tests/direct_scenes.h"
 #include "tests/thorough.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gn {
 namespace parts {
@@ -93,7 +93,8 @@ TEST(VolumesOfGeometry, have_one_list_of_edges_for_all_lights_and_frames) {
     };
     // What is asked for and not there is made here, and counted.
     int made = 0;
-    const std::uint64_t key = casters_key(scene, std::vector<CasterKind>(scene.objects.size(), CasterKind::opaque)) * 2 + 1;
+    const std::uint64_t key =
+        casters_key(scene, std::vector<CasterKind>(scene.objects.size(), CasterKind::opaque)) * 2 + 1;
     const auto edges = [&] {
         return uploaded.derived->get(uploaded.version, "volume edges", key, [&] {
             ++made;
