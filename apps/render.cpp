@@ -97,14 +97,24 @@ void say_remarks(const Scene& scene, const Camera& camera, const Recipe& recipe,
     say_notes(fmt::format("{} with {}", scene.name, recipe.name), notes);
 }
 
+/// "; it tells volume-count", what a part without a map can show.
+std::string told_instead(const Recipe& recipe) {
+    std::string names;
+    for (const Side& side : recipe.direct != nullptr ? recipe.direct->sides : std::vector<Side>{}) {
+        names += (names.empty() ? "; it tells " : ", ") + std::string(side.name);
+    }
+    return names;
+}
+
 /// What is wrong with the recipe whatever the scene.
 void check_recipe_alone(const Recipe& recipe, const RenderOptions& options) {
     if (const std::string sentence = stages_misfit(recipe); !sentence.empty()) {
         throw InputError(fmt::format("-r {}: {}", recipe.name, sentence));
     }
-    if (!options.show.empty() && recipe.map == nullptr) {
-        throw InputError(fmt::format("--show {}: recipe '{}' has no map, and all pictures of the hidden are of maps",
-                                     options.show, recipe.name));
+    const bool told = recipe.direct != nullptr && tells(*recipe.direct, options.show);
+    if (!options.show.empty() && recipe.map == nullptr && !told) {
+        throw InputError(fmt::format("--show {}: recipe '{}' has no map that this could be a picture of{}", options.show,
+                                     recipe.name, told_instead(recipe)));
     }
 }
 

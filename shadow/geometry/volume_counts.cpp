@@ -1,107 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Based on: Everitt, Kilgard. Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering. 2002.
-// [EK02] The raster pass of a light that counts.
+// [EK02] The raster pass of a light that counts, and what it can show.
 // Based on: Hornus, Hoberock, Lefebvre, Hart. ZP+: Correct Z-pass Stencil Shadows. I3D 2005. [HHLH05]
 // Departs from them: the count is a sum of blended floats, exact to 16 million, where eight bits of stencil wrap at 256; which
 // side of the samples is counted each component of the mesh decides for itself.
-#include "shadow/geometry/volume_passes.h"
+#include "shadow/geometry/volume_steps.h"
 #include "shadow/geometry/volumes.glsl"
 #include "shadow/recipe/prepared.h"
 
 namespace gn {
 
 namespace {
-
-// The vertex shaders clip at the near plane themselves, as volume_side.glsl does.
-// An opaque cap's vertex, as it is, at the far end or on the near plane.
-constexpr const char* opaque_text = R"(
-layout(constant_id = 2) const int FAR = 0;
-layout(location = 0) in vec3 in_position_ws;
-out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
-invariant gl_Position;
-void main() {
-    vec4 corner_ws = FAR != 0 ? gn_volumes_extrude(in_position_ws, u.frame.light_ws, u.frame.reach)
-                              : vec4(in_position_ws, 1.0);
-    gl_Position = gn_view_position(u.frame.cs_from_ws, corner_ws);
-    gl_ClipDistance[0] = gn_volumes_beyond_near(gl_Position);
-}
-)";
-
-constexpr const char* opaque_near_text = R"(
-layout(location = 0) in vec3 in_position_ws;
-out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
-invariant gl_Position;
-void main() {
-    vec4 corner_cs = gn_view_position(u.frame.cs_from_ws, vec4(in_position_ws, 1.0));
-    vec4 light_cs = gn_view_position(u.frame.cs_from_ws, u.frame.light_ws);
-    gl_Position = gn_volumes_on_near(corner_cs, light_cs);
-    gl_ClipDistance[0] = gn_volumes_before_near(corner_cs, light_cs);
-}
-)";
-
-// A compared cap's vertex: of the near cap and of the far one, or on the near plane.
-constexpr const char* compared_text = R"(
-layout(constant_id = 3) const int LISTED_BEFORE = 0;
-layout(constant_id = 4) const int ON_NEAR = 0;
-layout(location = 0) flat out int turned;
-out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
-invariant gl_Position;
-void main() {
-    uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
-    uint slot = uint(gl_VertexIndex) / corners;
-    uint corner = uint(gl_VertexIndex) % corners;
-    uint cap = caps[LISTED_BEFORE != 0 ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot];
-    uint t = cap >> 1;
-    turned = int(cap & 1u);
-    // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
-    bool far = corner >= 3u;
-    vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
-    vec4 corner_ws = far ? gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach) : vec4(p_ws, 1.0);
-    vec4 corner_cs = gn_view_position(u.frame.cs_from_ws, corner_ws);
-    if (ON_NEAR != 0) {
-        vec4 light_cs = gn_view_position(u.frame.cs_from_ws, u.frame.light_ws);
-        gl_Position = gn_volumes_on_near(corner_cs, light_cs);
-        gl_ClipDistance[0] = far ? -1.0 : gn_volumes_before_near(corner_cs, light_cs);
-        return;
-    }
-    gl_Position = corner_cs;
-    gl_ClipDistance[0] = gn_volumes_beyond_near(gl_Position);
-    // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
-    // every opaque cap does.
-    if ((owners[t] & 6u) == 2u &&
-        gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]], positions[indices[3u * t + 2u]],
-                        u.frame.eye_ws) > 0) {
-        gl_Position.z = 0.0;
-    }
-}
-)";
-
-// Behind the sample a ray leaves volumes (+1) and enters them (-1); before it, it enters (+1) and leaves (-1). The far end is a
-// mirror image.
-constexpr const char* count_text = R"(
-layout(constant_id = 1) const int TURNED = 0;
-layout(constant_id = 2) const int FAR = 0;
-layout(constant_id = 5) const int BEFORE = 0;
-layout(location = 0) out float count;
-void main() {
-    count = (gl_FrontFacing == (TURNED == FAR)) == (BEFORE != 0) ? 1.0 : -1.0;
-}
-)";
-
-constexpr const char* compared_count_text = R"(
-layout(constant_id = 5) const int BEFORE = 0;
-layout(location = 0) flat in int turned;
-layout(location = 0) out float count;
-void main() {
-    count = (gl_FrontFacing == (turned == 0)) == (BEFORE != 0) ? 1.0 : -1.0;
-}
-)";
-
-// What lies between a point of the near plane and the light begins with one volume more.
-constexpr const char* near_count_text = R"(
-layout(location = 0) out float count;
-void main() { count = 1.0; }
-)";
 
 constexpr const char* mark_text = R"(
 void main() {
@@ -111,172 +20,49 @@ void main() {
 }
 )";
 
-enum Constant : std::uint32_t { is_turned = 1, is_far = 2, listed_before = 3, on_near = 4, counts_before = 5 };
-
-/// Which samples a step counts at.
-enum class At { all, marked, unmarked };
-
-/// One draw, or with `indexed` those of opaque caps, from words of the buffer of draws.
-struct Step {
-    RasterDesc pipeline;
-    std::uint32_t word = 0;
-    bool indexed = false;
-    std::uint32_t mark = 0;  ///< what the stencil holds where it counts, if it is asked
-};
-
-StencilOps stencil(VkCompareOp compare, VkStencilOp pass) {
-    const VkStencilOpState state{.failOp = VK_STENCIL_OP_KEEP,
-                                 .passOp = pass,
-                                 .depthFailOp = VK_STENCIL_OP_KEEP,
-                                 .compareOp = compare,
-                                 .compareMask = 0xFF,
-                                 .writeMask = 0xFF,
-                                 .reference = 0};
-    return {state, state};
-}
-
-/// Lists of steps for one shader's inputs. Behind: what lies at or behind the sample counts; depth is reversed, so that this is
-/// LESS_OR_EQUAL, and before it is all else (volumes.md derives both).
-class Steps {
-  public:
-    explicit Steps(const ShaderInputs& inputs) : inputs_(inputs) {}
-
-    /// The sides and the compared caps of one list, counted before the samples or behind them.
-    void add_compared(std::uint32_t listed, bool before, At at) {
-        const VkCompareOp compare = before ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS_OR_EQUAL;
-        const SpecConstants constants{{listed_before, listed}, {counts_before, before ? 1U : 0U}};
-        add({"volume-side.vert", side_body, count_text, compare, constants}, sides_draw + 4 * listed, at);
-        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants},
-            compared_draw + 4 * listed, at);
-    }
-    /// The opaque caps of one list: no sample is behind them, so that they always count.
-    void add_caps(std::uint32_t listed, bool far_caps, At at) {
-        for (std::uint32_t turned = 0; turned < 2; ++turned) {
-            for (std::uint32_t far = 0; far < (far_caps ? 2U : 1U); ++far) {
-                add({"volume-cap.vert",
-                     opaque_text,
-                     count_text,
-                     VK_COMPARE_OP_ALWAYS,
-                     {{is_turned, turned}, {is_far, far}},
-                     true},
-                    opaque_draw + 5 * listed + 10 * turned, at);
-            }
-        }
-    }
-    /// What closes the volumes of the second list at the near plane.
-    void add_near_ends(At at) {
-        for (std::uint32_t turned = 0; turned < 2; ++turned) {
-            add({"volume-cap-near.vert", opaque_near_text, near_count_text, VK_COMPARE_OP_ALWAYS, {}, true},
-                opaque_draw + 5 + 10 * turned, at);
-        }
-        add({"volume-compared.vert",
-             compared_text,
-             near_count_text,
-             VK_COMPARE_OP_ALWAYS,
-             {{listed_before, 1}, {on_near, 1}}},
-            compared_draw + 4, at);
-    }
-    std::vector<Step> list;
-
-  private:
-    struct Shader {
-        std::string_view name;
-        std::string_view body;
-        const char* count;
-        VkCompareOp compare;
-        SpecConstants constants;
-        bool indexed = false;
-    };
-    void add(const Shader& shader, std::uint32_t word, At at) {
-        RasterDesc desc;
-        desc.vertex = {ShaderKind::vertex, std::string(shader.name), volume_shader(inputs_, shader.body)};
-        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", shader.count};
-        desc.constants = shader.constants;
-        desc.blend = Blend::add;
-        desc.depth_test = desc.depth_clamp = true;
-        desc.depth_compare = shader.compare;
-        if (at != At::all) {
-            desc.stencil = stencil(VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP);
-        }
-        if (shader.indexed) {
-            desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
-            desc.vertex_stride = sizeof(vec3);
-        }
-        list.push_back({sealed(std::move(desc)), word, shader.indexed, at == At::marked ? 1U : 0U});
-    }
-
-    const ShaderInputs& inputs_;
-};
-
-std::vector<Step> steps_of(const ShaderInputs& inputs, VolumeMode mode, bool far_caps, bool alone) {
-    Steps steps(inputs);
-    const At at = alone ? At::marked : At::all;
-    // What is listed as behind the samples, in any mode.
-    steps.add_compared(0, false, at);
-    steps.add_caps(0, far_caps, at);
-    // What is listed as before them.
-    if (mode == VolumeMode::split) {
-        steps.add_compared(1, true, At::marked);
-        steps.add_compared(1, false, At::unmarked);
-        steps.add_caps(1, far_caps, At::unmarked);
-        return std::move(steps.list);
-    }
-    steps.add_compared(1, true, at);
-    if (mode == VolumeMode::capped) {
-        steps.add_near_ends(at);
-    }
-    return std::move(steps.list);
-}
-
 RasterDesc mark_pipeline(const VolumeMarks& marks, const ShaderInputs& inputs) {
     RasterDesc desc =
         fullscreen({ShaderKind::fragment, "volume-mark.frag", marks.types + inputs.text() + marks.text + mark_text});
     desc.color_mask = 0;
-    desc.stencil = stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE);
+    desc.stencil = volume_stencil(VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE);
     return sealed(std::move(desc));
 }
 
-void draw(Recorder& r, const std::vector<Step>& steps, BufferHandle draws) {
-    for (const Step& step : steps) {
-        r.bind(step.pipeline);
-        r.stencil_reference(step.mark);
-        const VkDeviceSize at = step.word * sizeof(std::uint32_t);
-        if (step.indexed) {
-            r.draw_indexed_indirect(draws, at);
-        } else {
-            r.draw_indirect(draws, at);
-        }
-    }
-}
-
-}  // namespace
-
-TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
-                         const VolumeMarks* marks) {
-    const TextureHandle counts = input.graph.create(TextureDesc{.name = "volume counts",
-                                                                .format = VK_FORMAT_R32_SFLOAT,
-                                                                .width = input.samples.width,
-                                                                .height = input.samples.height});
+ShaderInputs count_inputs(const FrameInput& input, const VolumeBuffers& buffers) {
     ShaderInputs inputs = volume_side_inputs(input, buffers);
     inputs.buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
         .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);
-    const bool far_caps = gn_volumes_has_far_cap(buffers.frame), alone = marks != nullptr && marks->alone;
-    const std::uint64_t key = hashed(inputs).value(buffers.mode).value(far_caps).value(alone).finish().low;
-    const auto steps = made_once(input.prepared, "volume counts", key,
-                                 [&] { return steps_of(inputs, buffers.mode, far_caps, alone); });
+    return inputs;
+}
+
+/// What a pass needs that draws steps.
+struct StepPass {
+    const char* name;
+    ShaderInputs inputs;
+    std::shared_ptr<const std::vector<Step>> steps;
+    const VolumeMarks* marks = nullptr;
+};
+
+TextureHandle add_steps(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                        const StepPass& drawn) {
+    const TextureHandle counts = input.graph.create(TextureDesc{.name = drawn.name,
+                                                                .format = VK_FORMAT_R32_SFLOAT,
+                                                                .width = input.samples.width,
+                                                                .height = input.samples.height});
+    const VolumeMarks* marks = drawn.marks;
     std::shared_ptr<const RasterDesc> mark;
     if (marks != nullptr) {
         mark = made_once(input.prepared, "volume marks", hashed(marks->inputs).text(marks->text).finish().low,
                          [&] { return mark_pipeline(*marks, marks->inputs); });
     }
     input.graph.add_pass(
-        "volumes: counts",
+        drawn.name,
         [&](PassBuilder& pass) {
             pass.color(counts, Load::clear);
             pass.depth_read_only(receivers, {0, 1, 0, 1},
                                  marks != nullptr ? std::optional<std::uint32_t>(0) : std::nullopt);
-            inputs.declare(pass);
+            drawn.inputs.declare(pass);
             if (marks != nullptr) {
                 marks->inputs.declare(pass);
             }
@@ -284,8 +70,8 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
             pass.indices(buffers.indices);
             pass.indirect(buffers.draws);
         },
-        [inputs, steps, mark, marking = marks != nullptr ? marks->inputs : ShaderInputs(), draws = buffers.draws,
-         indices = buffers.indices, positions = input.handles.positions](Recorder& r) {
+        [inputs = drawn.inputs, steps = drawn.steps, mark, marking = marks != nullptr ? marks->inputs : ShaderInputs(),
+         draws = buffers.draws, indices = buffers.indices, positions = input.handles.positions](Recorder& r) {
             if (mark != nullptr) {
                 r.bind(*mark);
                 r.stencil_reference(1);
@@ -296,9 +82,60 @@ TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, 
             inputs.set(r);
             r.vertex_buffer(positions);
             r.index_buffer(indices);
-            draw(r, *steps, draws);
+            draw_steps(r, *steps, draws);
         });
     return counts;
+}
+
+StepPass counting_pass(const FrameInput& input, const VolumeBuffers& buffers, const char* name,
+                       const VolumeMarks* marks, bool all_fragments) {
+    ShaderInputs inputs = count_inputs(input, buffers);
+    const StepOptions options{buffers.mode, gn_volumes_has_far_cap(buffers.frame), marks != nullptr && marks->alone,
+                              all_fragments};
+    const std::uint64_t key = hashed(inputs)
+                                  .value(options.mode)
+                                  .value(options.far_caps)
+                                  .value(options.alone)
+                                  .value(all_fragments)
+                                  .finish()
+                                  .low;
+    auto steps = made_once(input.prepared, name, key, [&] { return count_steps(inputs, options); });
+    return {name, std::move(inputs), std::move(steps), marks};
+}
+
+StepPass silhouette_pass(const FrameInput& input, const VolumeBuffers& buffers) {
+    ShaderInputs inputs = volume_side_inputs(input, buffers);
+    auto steps = made_once(input.prepared, "volume silhouettes", hashed(inputs).finish().low,
+                           [&] { return silhouette_steps(inputs); });
+    return {"volumes: shown silhouettes", std::move(inputs), std::move(steps)};
+}
+
+}  // namespace
+
+TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                         const VolumeMarks* marks) {
+    return add_steps(input, buffers, receivers, counting_pass(input, buffers, "volumes: counts", marks, false));
+}
+
+std::vector<Side> volume_sides() {
+    return {{"volume-count", "", "How many volumes the counts say hold a sample."},
+            {"volume-fragments", "", "Fragments of sides and caps over a pixel, whether they count or not."},
+            {"volume-silhouettes", "", "Sides that begin over a pixel: silhouettes as the light sees them."}};
+}
+
+void add_volume_sides(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                      TextureHandle counts, Visibility& told) {
+    for (const std::string_view side : input.sides) {
+        if (side == "volume-count") {
+            told.sides.push_back({std::string(side), counts, nearest()});
+        } else if (side == "volume-fragments") {
+            const StepPass pass = counting_pass(input, buffers, "volumes: shown fragments", nullptr, true);
+            told.sides.push_back({std::string(side), add_steps(input, buffers, receivers, pass), nearest()});
+        } else if (side == "volume-silhouettes") {
+            told.sides.push_back(
+                {std::string(side), add_steps(input, buffers, receivers, silhouette_pass(input, buffers)), nearest()});
+        }
+    }
 }
 
 }  // namespace gn

@@ -5,6 +5,7 @@
 #include "gpu/shader_inputs.h"
 #include "shadow/geometry/edges.h"
 #include "shadow/geometry/volumes.h"
+#include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
 #include <memory>
@@ -98,6 +99,10 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
 /// Counts how many volumes hold each view sample. `marks` null: all are alike.
 TextureHandle add_counts(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
                          const VolumeMarks* marks = nullptr);
+/// What parts that count volumes can tell of a sample, and the images of those that the input asks for.
+std::vector<Side> volume_sides();
+void add_volume_sides(const FrameInput& input, const VolumeBuffers& buffers, TextureHandle receivers,
+                      TextureHandle counts, Visibility& told);
 /// How a count becomes V.
 struct CountResolve {
     bool masked = false;    ///< masked casters hide too, by their alpha: those that VolumeOptions::skip_masked left out

@@ -158,6 +158,50 @@ Shown color_hidden(FrameGraph& graph, const Recipe& recipe, const Built& built, 
     return color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes), picture.sentence);
 }
 
+bool tells_all(const Part* direct, std::span<const std::string> names) {
+    return direct != nullptr && !names.empty() &&
+           std::all_of(names.begin(), names.end(), [&](const std::string& name) { return tells(*direct, name); });
+}
+
+/// What a part without a map tells beside V.
+std::vector<Shown> show_told(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
+                             std::span<const std::string> names, const HiddenOptions& options) {
+    FrameGraph graph(device);
+    graph.group("scene");
+    const SceneHandles handles = import_scene(graph, scene);
+    const ViewSamples samples = add_view_samples(graph, scene, handles, camera, options.width, options.height);
+    graph.group("shadow");
+    FrameInput input{device,        graph,          *scene.scene,
+                     handles,       samples,        &scene.scene->lights.at(options.light),
+                     options.light, options.history};
+    check_recipe(recipe, input.scene, input.light(), input.device);
+    for (const std::string& name : names) {
+        input.sides.emplace_back(name);
+    }
+    const Visibility told = recipe.direct->add_direct(input, recipe);
+    for (const Offer& side : told.sides) {
+        graph.keep(side.texture);
+    }
+    graph.keep(samples.position);
+    graph.keep(samples.normal);
+    graph.execute(false);
+
+    // No light view holds the samples; all that there are were asked.
+    const CpuSamples seen = read_samples(graph, samples);
+    Image states(static_cast<int>(options.width), static_cast<int>(options.height), 4);
+    for (std::size_t i = 0; i < seen.position_ws.size(); ++i) {
+        states.values[4 * i + 3] = seen.position_ws[i].w > 0.0F ? 1.0F : -1.0F;
+    }
+    std::vector<Shown> shown;
+    for (const std::string& name : names) {
+        const Offer* side = told.find(name);
+        GN_CHECK(side != nullptr);
+        shown.push_back(color_side(read_image(graph, side->texture), states, find_hidden(name).sentence));
+        shown.back().name = name;
+    }
+    return shown;
+}
+
 }  // namespace
 
 std::span<const HiddenPicture> hidden_pictures() {
@@ -213,6 +257,9 @@ std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& ca
                                std::span<const std::string> names, const HiddenOptions& options) {
     for (const std::string& name : names) {
         find_hidden(name);
+    }
+    if (recipe.map == nullptr && tells_all(recipe.direct, names)) {
+        return show_told(device, scene, camera, recipe, names, options);
     }
     if (recipe.map == nullptr) {
         refuse(

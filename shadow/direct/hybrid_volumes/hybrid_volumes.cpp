@@ -88,7 +88,9 @@ Visibility add_hybrid_volumes(const FrameInput& input, const Recipe& recipe) {
     marks.inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", "seen", seen);
     const TextureHandle receivers = add_receivers(input, buffers, true);
     const TextureHandle counts = add_counts(input, buffers, receivers, &marks);
-    return add_count_resolve(input, counts, {.masked = params.alpha != 0, .known = seen});
+    Visibility visibility = add_count_resolve(input, counts, {.masked = params.alpha != 0, .known = seen});
+    add_volume_sides(input, buffers, receivers, counts, visibility);
+    return visibility;
 }
 
 }  // namespace
@@ -104,6 +106,7 @@ const Part& direct_hybrid_volumes() {
         p.citation = "CD04";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = volume_sides();
         p.params = param_table<GnHybridVolumesParams>({
             GN_PARAM(GnHybridVolumesParams, band, integer, 1, 8, "texels",
                      "Texels on either side of a sample that must agree for the map to decide: wider catches thinner "

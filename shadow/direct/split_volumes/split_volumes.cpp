@@ -91,7 +91,9 @@ Visibility add_split_volumes(const FrameInput& input, const Recipe& recipe) {
     const VolumeMarks marks = near_samples(input, params);
     const TextureHandle receivers = add_receivers(input, buffers, true);
     const TextureHandle counts = add_counts(input, buffers, receivers, &marks);
-    return add_count_resolve(input, counts, {.masked = params.alpha != 0});
+    Visibility visibility = add_count_resolve(input, counts, {.masked = params.alpha != 0});
+    add_volume_sides(input, buffers, receivers, counts, visibility);
+    return visibility;
 }
 
 }  // namespace
@@ -107,6 +109,7 @@ const Part& direct_split_volumes() {
         p.citation = "Lai05";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = volume_sides();
         p.params = param_table<GnSplitVolumesParams>({
             GN_CHOICE(GnSplitVolumesParams, split,
                       "By depth: samples nearer than their tile's middle count what lies before them, the others what "

@@ -31,7 +31,9 @@ Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
     add_silhouettes(input, buffers);
     const TextureHandle receivers = add_receivers(input, buffers);
     const TextureHandle counts = add_counts(input, buffers, receivers);
-    return add_count_resolve(input, counts, {.masked = params.masked == GN_VOLUMES_EXACT});
+    Visibility visibility = add_count_resolve(input, counts, {.masked = params.masked == GN_VOLUMES_EXACT});
+    add_volume_sides(input, buffers, receivers, counts, visibility);
+    return visibility;
 }
 
 std::string remark(const Scene& scene, const Recipe& recipe) {
@@ -67,6 +69,7 @@ const Part& direct_volumes() {
         p.citation = "EK02";
         p.features = {Feature::float32_blend};
         p.needs_scene = true;
+        p.sides = volume_sides();
         p.params = param_table<GnVolumesParams>({
             GN_CHOICE(GnVolumesParams, mode,
                       "Counts behind the samples (right anywhere), before them (cheaper, wrong where the camera is in "
