@@ -113,8 +113,8 @@ void check_recipe_alone(const Recipe& recipe, const RenderOptions& options) {
     }
     const bool told = recipe.direct != nullptr && tells(*recipe.direct, options.show);
     if (!options.show.empty() && recipe.map == nullptr && !told) {
-        throw InputError(fmt::format("--show {}: recipe '{}' has no map that this could be a picture of{}", options.show,
-                                     recipe.name, told_instead(recipe)));
+        throw InputError(fmt::format("--show {}: recipe '{}' has no map that this could be a picture of{}",
+                                     options.show, recipe.name, told_instead(recipe)));
     }
 }
 

@@ -51,6 +51,18 @@ bool out_of_view(const Box& box, vec4 light_ws, const mat4& cs_from_ws) {
     return std::any_of(all_outside.begin(), all_outside.end(), [](bool outside) { return outside; });
 }
 
+bool outside_frustum(const Box& box, const mat4& cs_from_ws) {
+    std::array<bool, 6> all_outside{true, true, true, true, true, true};
+    for (const vec3 corner : box.corners()) {
+        const dvec4 p = glm::dmat4(cs_from_ws) * dvec4(corner, 1.0);
+        const std::array<double, 6> inside{p.w + p.x, p.w - p.x, p.w + p.y, p.w - p.y, p.w - p.z, p.z};
+        for (std::size_t i = 0; i < 6; ++i) {
+            all_outside[i] = all_outside[i] && inside[i] < 0.0;
+        }
+    }
+    return std::any_of(all_outside.begin(), all_outside.end(), [](bool outside) { return outside; });
+}
+
 // Where a plane holds the hull of the near rectangle and the light: the least and the largest height above it.
 struct Heights {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -179,6 +191,66 @@ std::uint32_t side_of(const Component& component, const GnLight& light, VolumeMo
 }
 
 }  // namespace
+
+Box volume_region(const FrameInput& input) {
+    const GnLight& light = input.light().shape;
+    Box reach;
+    if (light.kind != uint(GN_LIGHT_DIRECTIONAL) && light.range > 0.0F) {
+        reach = {vec3(light.position_ws) - vec3(light.range), vec3(light.position_ws) + vec3(light.range)};
+    }
+    Box region;
+    for (const Object& object : input.scene.objects) {
+        Box box = object.bounds_ws;
+        if (!object.receives || beyond_light(box, light) || outside_frustum(box, input.samples.constants.cs_from_ws)) {
+            continue;
+        }
+        if (!reach.empty()) {
+            box = {glm::max(box.min, reach.min), glm::min(box.max, reach.max)};
+        }
+        region.grow(box.min);
+        region.grow(box.max);
+    }
+    for (const dvec3 corner_ws : near_hull(vec4(0), input.samples.constants.cs_from_ws).corners_ws) {
+        region.grow(vec3(corner_ws));
+    }
+    const vec3 slack = 1e-4F * (region.max - region.min) + 1e-5F * glm::max(glm::abs(region.min), glm::abs(region.max));
+    return {region.min - slack, region.max + slack};
+}
+
+std::uint32_t volume_end(const Box& caster, vec4 light_ws, const Box& region) {
+    // Of the planes that every ray from the caster runs towards the nearest; none where rays nearly miss it.
+    constexpr float least = 0.05F;
+    std::uint32_t nearest = 0;
+    float reach = 4.0F * region.diagonal();
+    for (std::uint32_t plane = 1; plane <= 6; ++plane) {
+        const auto axis = static_cast<int>((plane - 1) / 2);
+        const bool high = (plane - 1) % 2 == 1;
+        float farthest = 0;
+        bool all = true;
+        for (const vec3 corner_ws : caster.corners()) {
+            const vec3 away_ws = corner_ws * light_ws.w - vec3(light_ws);
+            const float along = (high ? 1.0F : -1.0F) * away_ws[axis], size = glm::length(away_ws);
+            all = all && along > least * size;
+            const float height = high ? region.max[axis] - corner_ws[axis] : corner_ws[axis] - region.min[axis];
+            farthest = std::max(farthest, height * size / along);
+        }
+        if (all && farthest < reach) {
+            reach = farthest;
+            nearest = plane;
+        }
+    }
+    return nearest;
+}
+
+void clamp_forms(std::span<const Component> components, vec4 light_ws, const Box& region,
+                 std::span<std::uint32_t> forms) {
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        // Behind the samples the far ends count, and split or closed volumes have other ends.
+        if ((forms[i] & (GN_VOLUMES_BEFORE | GN_VOLUMES_CAPPED)) == GN_VOLUMES_BEFORE) {
+            forms[i] |= volume_end(components[i].bounds_ws, light_ws, region) << GN_VOLUMES_PLANE_SHIFT;
+        }
+    }
+}
 
 std::vector<std::uint32_t> component_forms(std::span<const Component> components, const GnLight& light,
                                            const VolumeOptions& options, const mat4* cs_from_ws) {

@@ -89,6 +89,8 @@ void main() {
         sum += (around[i] & 1u) != 0u ? -m : m;
         sides_of_all += uint(abs(m));
     }
+    // Its component says where its volumes end.
+    uint plane = end > first[edge] ? forms[owners[around[first[edge]] >> 1] >> 3] >> GN_VOLUMES_PLANE_SHIFT : 0u;
     uint count = u.frame.every != 0 ? sides_of_all : uint(abs(sum));
     if (count == 0u) {
         return;
@@ -99,7 +101,7 @@ void main() {
     uint against = sum < 0 ? count : 0u;
     against = u.frame.every != 0 ? uint(int(count) - sum) / 2u : against;
     for (uint i = 0u; i < count; ++i) {
-        uint side = edge * 2u + (i < against ? 1u : 0u);
+        uint side = (plane << GN_VOLUMES_SIDE_BITS) + edge * 2u + (i < against ? 1u : 0u);
         sides[before ? u.frame.most_sides - 1u - slot - i : slot + i] = side;
     }
 }
@@ -211,6 +213,11 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
     buffers.forms = component_forms(scene.list.components, light, options, &input.samples.constants.cs_from_ws);
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
+    Box region;
+    if (options.clamp) {
+        region = volume_region(input);
+        clamp_forms(scene.list.components, light_ws, region, buffers.forms);
+    }
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
                      .eye_ws = eye_of(input.samples.camera),
                      .light_ws = light_ws,
@@ -222,6 +229,8 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
                      .pixel = pixel_metres(input.samples),
                      .reach = reach_of_volumes(input),
                      .capped = options.mode == VolumeMode::capped ? 1 : 0,
+                     .low_ws = vec4(region.min, options.clamp ? 1.0F : 0.0F),
+                     .high_ws = vec4(region.max, 0.0F),
                      .every = options.every_side ? 1 : 0};
 
     // The lists take the worst case: every triangle a cap, nothing cancelled at any edge.
@@ -256,6 +265,8 @@ void add_facing(const FrameInput& input, const VolumeBuffers& buffers) {
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers) {
     ShaderInputs inputs;
     inputs.buffer("readonly buffer", "First", "uint first[];", buffers.first)
+        .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners)
+        .block("readonly buffer", "Forms", "uint forms[];", std::as_bytes(std::span(buffers.forms)))
         .buffer("readonly buffer", "Around", "uint around[];", buffers.around)
         .buffer("readonly buffer", "Multiplicity", "int multiplicity[];", buffers.multiplicity)
         .buffer("writeonly buffer", "Sides", "uint sides[];", buffers.sides)

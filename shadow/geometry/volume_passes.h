@@ -56,6 +56,7 @@ struct VolumeOptions {
     bool skip_masked = false;  ///< masked objects have no volumes
     bool closed = true;        ///< solids cast with one half of their surface
     bool culling = true;       ///< components whose shadow cannot be seen are left out
+    bool clamp = false;        ///< volumes end where no sample is beyond
 };
 
 struct VolumeBuffers {
@@ -84,6 +85,14 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
 /// and nothing is known to lie off its near rectangle.
 std::vector<std::uint32_t> component_forms(std::span<const Component> components, const GnLight& light,
                                            const VolumeOptions& options, const mat4* cs_from_ws);
+/// A box (ws) of all that the view's samples of the light and its near rectangle can be: no ray from the eye to a sample leaves it.
+Box volume_region(const FrameInput& input);
+/// The plane of the region, 1 to 6 as GN_VOLUMES_PLANE_SHIFT says, at which a caster's volumes may end that are counted before
+/// the samples: every ray of light from the box runs towards it. 0: none.
+std::uint32_t volume_end(const Box& caster, vec4 light_ws, const Box& region);
+/// Adds it to the forms of the components that count before the samples.
+void clamp_forms(std::span<const Component> components, vec4 light_ws, const Box& region,
+                 std::span<std::uint32_t> forms);
 /// Whether the shadow of something in the box can fall on what the view sees and the light reaches; `cs_from_ws` null: what the
 /// light reaches anywhere. Never false where it does.
 bool may_shade_view(const Box& box, const GnLight& light, const mat4* cs_from_ws);

@@ -10,9 +10,12 @@ layout(location = 1) flat out vec3 b_ws;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
 
-vec4 end_ws(vec3 p_ws, bool far) {
+vec4 end_ws(vec3 p_ws, bool far, uint plane) {
     if (!far) {
         return vec4(p_ws, 1.0);
+    }
+    if (STRIP == 0 && plane != 0u) {
+        return gn_volumes_clamped(u.frame, p_ws, plane);
     }
     return STRIP != 0 ? gn_volumes_strip(u.frame, p_ws, gn_volumes_away(p_ws, u.frame.light_ws))
                       : gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach);
@@ -20,13 +23,13 @@ vec4 end_ws(vec3 p_ws, bool far) {
 
 // Where a side passes through the near plane along both its rays, it ends there in the very corners of the cap that closes
 // its volume: clipping would round them otherwise, and leave cracks. [HHLH05] section 4
-bool ends_at_near(bool far) {
+bool ends_at_near(bool far, uint plane) {
     vec4 light_cs = gn_view_position(u.frame.cs_from_ws, u.frame.light_ws);
     bool through = true;
     for (int i = 0; i < 2; ++i) {
         vec3 p_ws = i == 0 ? a_ws : b_ws;
-        float here = gn_volumes_beyond_near(gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, far)));
-        float there = gn_volumes_beyond_near(gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, !far)));
+        float here = gn_volumes_beyond_near(gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, far, plane)));
+        float there = gn_volumes_beyond_near(gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, !far, plane)));
         through = through && here < 0.0 && there > 0.0;
     }
     return through;
@@ -38,6 +41,8 @@ void main() {
     uint corners = STRIP != 0 ? 6u : gn_volumes_corners(u.frame);
     uint slot = uint(gl_VertexIndex) / corners;
     uint side = sides[LISTED_BEFORE != 0 ? u.frame.most_sides - 1u - slot : slot];
+    uint plane = side >> GN_VOLUMES_SIDE_BITS;
+    side &= (1u << GN_VOLUMES_SIDE_BITS) - 1u;
     uint corner = uint(gl_VertexIndex) % corners + 6u - corners;
     uvec2 edge = edges[side >> 1];
     a_ws = positions[edge.x];
@@ -46,8 +51,8 @@ void main() {
     bool second = corner == 2u || corner >= 4u;
     bool far = corner == 1u || corner == 2u || corner == 4u;
     vec3 p_ws = second != turned ? b_ws : a_ws;
-    gl_Position = gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, far));
-    if (STRIP == 0 && u.frame.capped != 0 && ends_at_near(far)) {
+    gl_Position = gn_view_position(u.frame.cs_from_ws, end_ws(p_ws, far, plane));
+    if (STRIP == 0 && u.frame.capped != 0 && ends_at_near(far, plane)) {
         gl_Position = gn_volumes_on_near(gn_view_position(u.frame.cs_from_ws, vec4(p_ws, 1.0)),
                                          gn_view_position(u.frame.cs_from_ws, u.frame.light_ws));
     }

@@ -101,7 +101,14 @@ layout(location = 0) out float count;
 void main() { count = 1.0; }
 )";
 
-enum Constant : std::uint32_t { is_strip = 0, is_turned = 1, is_far = 2, listed_before = 3, on_near = 4, counts_before = 5 };
+enum Constant : std::uint32_t {
+    is_strip = 0,
+    is_turned = 1,
+    is_far = 2,
+    listed_before = 3,
+    on_near = 4,
+    counts_before = 5
+};
 
 /// Which samples a step counts at.
 enum class At { all, marked, unmarked };
@@ -140,11 +147,7 @@ class Steps {
             add({"volume-cap-near.vert", opaque_near_text, one_text, VK_COMPARE_OP_ALWAYS, {}, true},
                 opaque_draw + 5 + 10 * turned, at);
         }
-        add({"volume-compared.vert",
-             compared_text,
-             one_text,
-             VK_COMPARE_OP_ALWAYS,
-             {{listed_before, 1}, {on_near, 1}}},
+        add({"volume-compared.vert", compared_text, one_text, VK_COMPARE_OP_ALWAYS, {{listed_before, 1}, {on_near, 1}}},
             compared_draw + 4, at);
     }
     /// Where sides hang from the edges of silhouettes.
@@ -172,7 +175,8 @@ class Steps {
     void add(const Shader& shader, std::uint32_t word, At at) {
         RasterDesc desc;
         desc.vertex = {ShaderKind::vertex, std::string(shader.name), volume_shader(inputs_, shader.body)};
-        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag", all_fragments_ ? one_text : shader.count};
+        desc.fragment =
+            ShaderSource{ShaderKind::fragment, "volume-count.frag", all_fragments_ ? one_text : shader.count};
         desc.constants = shader.constants;
         desc.blend = Blend::add;
         desc.depth_test = desc.depth_clamp = true;
@@ -242,6 +246,5 @@ void draw_steps(Recorder& r, const std::vector<Step>& steps, BufferHandle draws)
         }
     }
 }
-
 
 }  // namespace gn

@@ -100,7 +100,7 @@ GN_FN float gn_volumes_before_near(vec4 p_cs, vec4 light_cs) {
 
 // Corners of a side: two triangles, or one where both points at infinity are the same and it nowhere ends before.
 GN_FN uint gn_volumes_corners(GnVolumesFrame frame) {
-    return gn_volumes_has_far_cap(frame) || frame.capped != 0 ? 6u : 3u;
+    return gn_volumes_has_far_cap(frame) || frame.capped != 0 || frame.low_ws.w > 0.0f ? 6u : 3u;
 }
 
 // The far end of the strip of a side that lies at its edge: pushed away by what 8 pixels span there, so that even seen
@@ -109,6 +109,19 @@ GN_FN vec4 gn_volumes_strip(GnVolumesFrame frame, vec3 p_ws, vec3 away_ws) {
     float reach = 8.0f * frame.pixel * (frame.eye_ws.w > 0.0f ? length(p_ws - vec3(frame.eye_ws)) : 1.0f);
     float size = length(away_ws);
     return vec4(size > 0.0f ? p_ws + away_ws * (reach / size) : p_ws, 1.0f);
+}
+
+// Where a volume ends that nobody sees beyond a plane of the box: on the plane, but no nearer than its strip, so that samples
+// which a strip lifts see the side as the strip.
+// [LWGM04] section 4, departing from it: a plane of all receivers, not an interval of each
+GN_FN vec4 gn_volumes_clamped(GnVolumesFrame frame, vec3 p_ws, uint plane) {
+    uint axis = (plane - 1u) >> 1;
+    float bound = ((plane - 1u) & 1u) != 0u ? frame.high_ws[axis] : frame.low_ws[axis];
+    vec3 away_ws = gn_volumes_away(p_ws, frame.light_ws);
+    float t = (bound - p_ws[axis]) / away_ws[axis];
+    vec4 strip_ws = gn_volumes_strip(frame, p_ws, away_ws);
+    vec3 least_ws = vec3(strip_ws) - p_ws;
+    return t > 0.0f && t * t * dot(away_ws, away_ws) > dot(least_ws, least_ws) ? vec4(p_ws + away_ws * t, 1.0f) : strip_ws;
 }
 
 // Whether the sample lies on the edge as far as the rasterizer can tell. A side that hangs from an edge of the sample's

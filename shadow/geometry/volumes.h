@@ -16,6 +16,11 @@
 // Its caps are listed although it is counted before the sample: they close its volumes at the near plane (zp+).
 #define GN_VOLUMES_CAPPED 8
 
+// Where its volumes end: 0 nowhere, else 1 plus the plane's number, low x, high x, low y, ... of GnVolumesFrame.
+#define GN_VOLUMES_PLANE_SHIFT 4
+// Bits of a side's entry below its plane's: the edge, times 2, + 1 when turned over.
+#define GN_VOLUMES_SIDE_BITS 29
+
 // What every pass of one light knows.
 struct GnVolumesFrame {
     mat4 cs_from_ws;
@@ -29,7 +34,9 @@ struct GnVolumesFrame {
     float pixel;      ///< metres that a pixel spans at a distance of 1 m, or everywhere (orthographic)
     float reach;      ///< metres that a sun's volumes are long; 0: without end, for any light
     int capped;       ///< 1: volumes are closed at the near plane (zp+), and all count before the sample
-    int every;        ///< 1: each triangle has three sides of its own, whatever cancels (brute force)
+    vec4 low_ws;      ///< corners of a box beyond which volumes may end; w = 1 where some do
+    vec4 high_ws;
+    int every;  ///< 1: each triangle has three sides of its own, whatever cancels (brute force)
 };
 
 #endif

@@ -21,7 +21,8 @@ VolumeOptions options_of(const GnVolumesParams& params) {
             .every_side = params.extrude == GN_VOLUMES_BRUTE_FORCE,
             .skip_masked = params.masked != GN_VOLUMES_OPAQUE,
             .closed = params.closed != 0,
-            .culling = params.culling != 0};
+            .culling = params.culling != 0,
+            .clamp = params.clamp != 0};
 }
 
 Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
@@ -85,6 +86,9 @@ const Part& direct_volumes() {
                 "exact", "opaque", "skip"),
             GN_PARAM(GnVolumesParams, closed, boolean, 0, 1, "",
                      "Solids cast with the half of their surface that light meets first; off counts every triangle."),
+            GN_PARAM(GnVolumesParams, clamp, boolean, 0, 1, "",
+                     "Ends volumes that are counted before the samples where no sample is beyond; off lets them run on "
+                     "without end."),
             GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",
                      "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
         });

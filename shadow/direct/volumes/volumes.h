@@ -21,6 +21,7 @@ struct GnVolumesParams {
     int extrude GN_DEFAULT(GN_VOLUMES_SILHOUETTE);  ///< sides of silhouettes, or of every triangle
     int masked GN_DEFAULT(GN_VOLUMES_EXACT);        ///< alpha-masked casters: their texels, whole polygons, or nothing
     int closed GN_DEFAULT(1);                       ///< 1: a solid casts with one side of its surface only
+    int clamp GN_DEFAULT(1);                        ///< 1: volumes end where no sample is beyond
     int culling GN_DEFAULT(1);                      ///< 1: components whose shadow cannot be seen are left out
 };
 

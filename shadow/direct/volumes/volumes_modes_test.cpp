@@ -2,6 +2,7 @@
 // On which side of the samples volumes are counted: where z-pass is z-fail, where it is wrong and by how much, and zp+.
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/geometry/volumes.glsl"
+#include "shadow/show/show.h"
 #include "tests/direct_scenes.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,76 @@ TEST(VolumeModes, zp_plus_is_z_fail_across_sides_and_under_lights_on_both_sides_
     const Scene scene = b.light(sun({0.1F, -0.5F, 1})).scene();
     EXPECT_EQ(visibility(scene, "zp+", 160, 120), visibility(scene, "z-fail", 160, 120));
     EXPECT_NE(visibility(scene, "z-pass", 160, 120), visibility(scene, "z-fail", 160, 120));
+}
+
+// The values behind `--show`, of the first light.
+std::vector<float> shown(const Scene& scene, const Recipe& recipe, const char* name, uint width, uint height) {
+    SceneGpu uploaded = upload_scene(device(), scene);
+    const std::string asked = name;
+    const Image values =
+        show_hidden(device(), uploaded, scene.cameras.front(), recipe, {&asked, 1}, {.width = width, .height = height})
+            .front()
+            .values;
+    std::vector<float> first;
+    for (std::size_t i = 0; i < values.values.size(); i += static_cast<std::size_t>(values.channels)) {
+        first.push_back(values.values[i]);
+    }
+    return first;
+}
+
+TEST(VolumeModes, the_count_that_is_shown_is_that_of_volumes) {
+    // In two volumes z-pass counts two too few, at every sample.
+    const Scene scene = stairs(2, 3);
+    const auto recipe = [](const char* mode) { return direct_recipe(parts::direct_volumes(), {{"mode", mode}}); };
+    const auto fail = shown(scene, recipe("z-fail"), "volume-count", 160, 96);
+    const auto pass = shown(scene, recipe("z-pass"), "volume-count", 160, 96);
+    const auto images = visibility(scene, "z-fail", 160, 96);
+    for (std::size_t i = 0; i < fail.size(); ++i) {
+        if (images[0][i] == 1.0F || fail[i] > 0.0F) {
+            EXPECT_EQ(fail[i] - pass[i], 2.0F) << i;
+            EXPECT_EQ(images[0][i], fail[i] == 0.0F ? 1.0F : 0.0F) << i;
+        }
+    }
+    EXPECT_EQ(*std::max_element(fail.begin(), fail.end()), 5.0F);
+    // Edges of silhouettes are where sides begin.
+    const auto edges = shown(scene, recipe("auto"), "volume-silhouettes", 160, 96);
+    EXPECT_GT(std::count(edges.begin(), edges.end(), 0.0F), 1000);
+    EXPECT_GT(edges.size() - static_cast<std::size_t>(std::count(edges.begin(), edges.end(), 0.0F)), 50U);
+}
+
+TEST(VolumeClamp, changes_no_sample_and_takes_most_fragments_away) {
+    for (const char* name : {"fence", "stack", "contact:light=point", "grid:objects=25"}) {
+        Scene scene = make_builtin_scene(name);
+        for (Light& light : scene.lights) {
+            light.shape.radius = light.shape.angular_radius = 0.0F;
+        }
+        std::array<double, 2> fragments{};
+        std::array<std::vector<float>, 2> v;
+        for (const std::size_t clamp : {0U, 1U}) {
+            const Recipe recipe = direct_recipe(parts::direct_volumes(), {{"clamp", clamp == 1 ? "1" : "0"}});
+            for (const float count : shown(scene, recipe, "volume-fragments", 160, 120)) {
+                fragments[clamp] += static_cast<double>(count);
+            }
+            SceneGpu uploaded = upload_scene(device(), scene);
+            const FrameResult frame = render_frame(device(), uploaded, scene.cameras.front(), recipe,
+                                                   {.width = 160, .height = 120, .picture = false});
+            v[clamp] = frame.visibility[0].values;
+            EXPECT_EQ(judge(scene, frame, 0).wrong, 0U) << name << ", clamp " << clamp;
+        }
+        EXPECT_EQ(v[0], v[1]) << name;
+        EXPECT_LT(fragments[1], 0.8 * fragments[0]) << name;
+        std::printf("%s: %.0f of %.0f\n", name, fragments[1], fragments[0]);
+    }
+}
+
+TEST(VolumeClamp, ends_volumes_on_the_nearest_plane_that_all_rays_run_towards) {
+    const Box region{vec3(-10, 0, -10), vec3(10, 5, 10)}, caster{vec3(-1, 1, -1), vec3(1, 2, 1)};
+    EXPECT_EQ(volume_end(caster, vec4(0, 1, 0, 0), region), 3U);                                 // the ground
+    EXPECT_EQ(volume_end(caster, vec4(0.999F, 0.04F, 0, 0), region), 1U);                        // along it, the wall
+    EXPECT_EQ(volume_end(caster, vec4(0, 4, 0, 1), region), 3U);                                 // below the lamp
+    EXPECT_EQ(volume_end(caster, vec4(-4, 1.5F, 0, 1), region), 2U);                             // beside it
+    EXPECT_EQ(volume_end(caster, vec4(0.5F, 1.5F, 0.5F, 1), region), 0U);                        // within the caster
+    EXPECT_EQ(volume_end(Box{vec3(-1, -9, -1), vec3(1, -8, 1)}, vec4(0, 1, 0, 0), region), 3U);  // beyond the ground
 }
 
 TEST(VolumeModes, what_shades_the_near_rectangle_is_always_told) {
