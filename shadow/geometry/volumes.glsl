@@ -103,10 +103,10 @@ GN_FN uint gn_volumes_corners(GnVolumesFrame frame) {
     return gn_volumes_has_far_cap(frame) || frame.capped != 0 || frame.low_ws.w > 0.0f ? 6u : 3u;
 }
 
-// The far end of the strip of a side that lies at its edge: pushed away by what 8 pixels span there, so that even seen
+// The far end of the strip of a side that lies at its edge: pushed away by what 16 pixels span there, so that even seen
 // at a slant the strip is wider than the rasterizer's grid.
 GN_FN vec4 gn_volumes_strip(GnVolumesFrame frame, vec3 p_ws, vec3 away_ws) {
-    float reach = 8.0f * frame.pixel * (frame.eye_ws.w > 0.0f ? length(p_ws - vec3(frame.eye_ws)) : 1.0f);
+    float reach = 16.0f * frame.pixel * (frame.eye_ws.w > 0.0f ? length(p_ws - vec3(frame.eye_ws)) : 1.0f);
     float size = length(away_ws);
     return vec4(size > 0.0f ? p_ws + away_ws * (reach / size) : p_ws, 1.0f);
 }

@@ -166,7 +166,6 @@ TEST(VolumeClamp, changes_no_sample_and_takes_most_fragments_away) {
         }
         EXPECT_EQ(v[0], v[1]) << name;
         EXPECT_LT(fragments[1], 0.8 * fragments[0]) << name;
-        std::printf("%s: %.0f of %.0f\n", name, fragments[1], fragments[0]);
     }
 }
 
