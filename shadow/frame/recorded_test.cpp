@@ -144,7 +144,7 @@ TEST(RecordedFrames, RefuseInASentenceWhatAHostDoesNotLend) {
     const Scene& scene = test::built_in("courtyard");
     SceneGpu gpu = upload_scene(test::device(), scene);
     HostPictures pictures = pictures_of(scene, gpu);
-    for (const auto& [text, what] : {std::pair{"hard,casters=ids", "material"}, {"volumes", "depth"}}) {
+    for (const auto& [text, what] : {std::pair{"hard,casters=ids", "object"}, {"volumes", "depth"}}) {
         const PreparedRecipe recipe(test::device(), load_recipe(text));
         FrameGraph graph(test::device());
         const std::vector<FrameLight> lights = lights_of(scene);
