@@ -40,8 +40,32 @@ GN_FN float gn_edge_size(vec3 a, vec3 b, float most) {
     return (x + y) * most + abs(a.x * b.y) + abs(a.y * b.x);
 }
 
-// The edges of a triangle of such positions; what lies behind the eye is left out. `bounds`: first texel and end.
-GN_FN GnTexelEdges gn_texel_edges(vec3 a, vec3 b, vec3 c, ivec4 bounds) {
+// Farther than any texel.
+const float gn_far_texel = 1.0e30f;
+
+// A margin with which a triangle reaches everywhere, also from behind the eye.
+const float gn_everywhere = 1.0e8f;
+
+// Grows a rectangle by a corner before the eye, and by where the edge to the next corner leaves what lies before the eye: the
+// sides to which it goes on without end.
+GN_FN void gn_bound_corner(vec3 a, vec3 b, GN_INOUT(vec2) first, GN_INOUT(vec2) last) {
+    if (a.z > 0.0f) {
+        vec2 at = vec2(a.x, a.y) / a.z;
+        first = min(first, at);
+        last = max(last, at);
+    }
+    if ((a.z > 0.0f) != (b.z > 0.0f)) {
+        vec2 towards = vec2(a.x, a.y) * b.z - vec2(b.x, b.y) * a.z;
+        vec2 slack = 1.0e-5f * (abs(vec2(a.x, a.y) * b.z) + abs(vec2(b.x, b.y) * a.z));
+        vec2 side = a.z > 0.0f ? -towards : towards;
+        first = vec2(side.x < slack.x ? -gn_far_texel : first.x, side.y < slack.y ? -gn_far_texel : first.y);
+        last = vec2(side.x > -slack.x ? gn_far_texel : last.x, side.y > -slack.y ? gn_far_texel : last.y);
+    }
+}
+
+// The edges of a triangle of such positions that reaches `margin` texels further along both axes; what lies behind the eye is
+// left out. `bounds`: first texel and end.
+GN_FN GnTexelEdges gn_texel_edges_grown(vec3 a, vec3 b, vec3 c, ivec4 bounds, float margin) {
     GnTexelEdges edges;
     edges.a = cross(b, c);
     edges.b = cross(c, a);
@@ -52,22 +76,29 @@ GN_FN GnTexelEdges gn_texel_edges(vec3 a, vec3 b, vec3 c, ivec4 bounds) {
     edges.c = turn * edges.c;
     float most = float(max(bounds.z, bounds.w));
     edges.slack = 1.0e-6f * vec3(gn_edge_size(b, c, most), gn_edge_size(c, a, most), gn_edge_size(a, b, most));
-    edges.texels = bounds;
-    if (a.z > 0.0f && b.z > 0.0f && c.z > 0.0f) {
-        vec2 pa = vec2(a.x, a.y) / a.z;
-        vec2 pb = vec2(b.x, b.y) / b.z;
-        vec2 pc = vec2(c.x, c.y) / c.z;
-        vec2 first = min(min(pa, pb), pc);
-        vec2 last = max(max(pa, pb), pc);
-        vec2 low = vec2(float(bounds.x), float(bounds.y));
-        vec2 high = vec2(float(bounds.z), float(bounds.w));
-        first = clamp(floor(first - 1.0e-6f * (abs(first) + 1.0f)), low, high);
-        last = clamp(floor(last + 1.0e-6f * (abs(last) + 1.0f)) + 1.0f, low, high);
-        edges.texels = ivec4(int(first.x), int(first.y), int(last.x), int(last.y));
-    } else if (a.z <= 0.0f && b.z <= 0.0f && c.z <= 0.0f) {
-        edges.texels = ivec4(bounds.x, bounds.y, bounds.x, bounds.y);
+    edges.slack += margin * vec3(abs(edges.a.x) + abs(edges.a.y), abs(edges.b.x) + abs(edges.b.y),
+                                 abs(edges.c.x) + abs(edges.c.y));
+    vec2 first = vec2(gn_far_texel);
+    vec2 last = vec2(-gn_far_texel);
+    gn_bound_corner(a, b, first, last);
+    gn_bound_corner(b, c, first, last);
+    gn_bound_corner(c, a, first, last);
+    vec2 low = vec2(float(bounds.x), float(bounds.y));
+    vec2 high = vec2(float(bounds.z), float(bounds.w));
+    first = first - margin;
+    last = last + margin;
+    first = clamp(floor(first - 1.0e-6f * (abs(first) + 1.0f)), low, high);
+    last = clamp(floor(last + 1.0e-6f * (abs(last) + 1.0f)) + 1.0f, low, high);
+    edges.texels = ivec4(int(first.x), int(first.y), int(last.x), int(last.y));
+    if (margin >= gn_everywhere) {
+        edges.slack = vec3(gn_far_texel);
+        edges.texels = bounds;
     }
     return edges;
+}
+
+GN_FN GnTexelEdges gn_texel_edges(vec3 a, vec3 b, vec3 c, ivec4 bounds) {
+    return gn_texel_edges_grown(a, b, c, bounds, 0.0f);
 }
 
 // Whether a half plane reaches into the texel around `centre`.
@@ -81,6 +112,16 @@ GN_FN bool gn_touches(GnTexelEdges edges, ivec2 texel) {
     return texel.x >= edges.texels.x && texel.y >= edges.texels.y && texel.x < edges.texels.z && texel.y < edges.texels.w &&
            gn_edge_touches(edges.a, edges.slack.x, centre) && gn_edge_touches(edges.b, edges.slack.y, centre) &&
            gn_edge_touches(edges.c, edges.slack.z, centre);
+}
+
+// Whether it may reach into a square of `side` texels, from its first texel on.
+GN_FN bool gn_touches_block(GnTexelEdges edges, ivec2 first, int side) {
+    float reach = 0.5f * float(side);
+    vec2 centre = vec2(float(first.x) + reach, float(first.y) + reach);
+    vec3 x = vec3(edges.a.x, edges.b.x, edges.c.x);
+    vec3 y = vec3(edges.a.y, edges.b.y, edges.c.y);
+    vec3 most = x * centre.x + y * centre.y + vec3(edges.a.z, edges.b.z, edges.c.z) + reach * (abs(x) + abs(y)) + edges.slack;
+    return most.x >= 0.0f && most.y >= 0.0f && most.z >= 0.0f;
 }
 
 #ifdef __cplusplus

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Based on: Johnson, Lee, Burns, Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 2005.
+// [JLBM05]
+// Departs from it: hidden is what the truth calls hidden, by planes through the view sample, with no depth compared; and
+// texels may list triangles instead.
+//
+// Stands on: shadow/placement/place (its lists are placed as maps are)
+// Also here: irregular_z_pairs.h, irregular_z_pairs.cpp.
+#include "shadow/direct/irregular_z/irregular_z.h"
+
+#include "shadow/direct/irregular_z/irregular_z_pairs.h"
+#include "shadow/frame/frame.h"
+#include "shadow/geometry/caster_geometry.h"
+#include "shadow/placement/place.h"
+#include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* pair_text = R"(
+void gn_pair(uint sample_index, vec3 p_ws, vec3 n_ws, uint triangle, GnOccluder t, bool masked) {
+    bool hides = gn_occluder_hides(t, p_ws, n_ws, u.light_ws);
+    if (masked && hides) {
+        vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
+        hides = gn_mask_solid(triangle, gn_hit_shares(gn_occluder_edges(t, origin_ws), gn_towards(origin_ws, u.light_ws)));
+    }
+    if (hides) {
+        atomicOr(hidden[sample_index], 1u);
+    }
+}
+)";
+
+constexpr const char* resolve_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(visibility)))) {
+        return;
+    }
+    vec4 p_ws = gbuffer_position_texel(pixel);
+    bool counted = p_ws.w > 0.0 && gn_counted(u.whole, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
+    bool lit = hidden[pixel.y * imageSize(visibility).x + pixel.x] == 0u;
+    imageStore(visibility, pixel, vec4(counted && lit ? 1.0 : 0.0));
+}
+)";
+
+Visibility add_resolve_hidden(const FrameInput& input, BufferHandle hidden) {
+    Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs;
+    add_gbuffer(inputs, input.device, input.samples);
+    inputs.buffer("readonly buffer", "Hidden", "uint hidden[];", hidden);
+    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
+    inputs.constant("GnLight", "whole", input.whole_light().shape);
+    const auto shader = compute_once(input.prepared, "irregular-z.comp", hashed(inputs), [&] {
+        return include_line("shadow/scene/light.h") + inputs.text() + resolve_text;
+    });
+    input.graph.add_pass(
+        "irregular-z: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch_pixels(width, height);
+        });
+    return result;
+}
+
+Visibility add_irregular_z(const FrameInput& input, const Recipe& recipe) {
+    const auto params = recipe.of<GnIrregularZParams>("irregular-z");
+    const LightViews views = place_views(input, recipe);
+
+    // Nothing is hidden yet.
+    const VkDeviceSize bytes = VkDeviceSize{input.samples.width} * input.samples.height * sizeof(std::uint32_t);
+    const BufferHandle hidden = input.graph.create(BufferDesc{.name = "irregular-z hidden", .bytes = bytes});
+    input.graph.add_pass(
+        "irregular-z: light", [&](PassBuilder& pass) { pass.copy_to(hidden); },
+        [hidden](Recorder& r) { r.fill(hidden, 0); });
+
+    // Every triangle hides the light from the samples that it hides it from.
+    SamplePairs pairs{.name = "irregular-z",
+                      .includes = "",
+                      .inputs = {},
+                      .functions = pair_text,
+                      .margin = "",
+                      .list_triangles = params.lists == GN_IRREGULAR_TRIANGLES};
+    pairs.inputs.buffer("buffer", "Hidden", "uint hidden[];", hidden);
+    pairs.inputs.constant("vec4", "light_ws", light_point_ws(input.light().shape));
+    add_sample_pairs(input, recipe, views, pairs);
+    return add_resolve_hidden(input, hidden);
+}
+
+std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& recipe) {
+    const Part& placement = recipe.placement_for(light.shape);
+    return placement.bends
+               ? fmt::format(
+                     "direct 'irregular-z' follows straight edges through its views and placement '{}' bends "
+                     "them; use auto or cube",
+                     placement.id)
+               : "";
+}
+
+}  // namespace
+
+namespace parts {
+
+const Part& direct_irregular_z() {
+    static const Part part = [] {
+        Part p;
+        p.id = "irregular-z";
+        p.stage = Stage::direct;
+        p.title = "Irregular z-buffer";
+        p.citation = "JLBM05";
+        p.needs_scene = true;
+        p.params = param_table<GnIrregularZParams>({
+            GN_CHOICE(
+                GnIrregularZParams, lists,
+                "What a texel lists: samples, which each triangle asks, or triangles, which each sample asks; the "
+                "picture is the same, triangles take more memory.",
+                "samples", "triangles"),
+        });
+        p.params_type = "GnIrregularZParams";
+        p.glsl = "shadow/direct/irregular_z/irregular_z.glsl";
+        p.reads = {"placement", "resolution"};
+        p.add_direct = add_irregular_z;
+        p.refuses = refuses;
+        return p;
+    }();
+    return part;
+}
+
+}  // namespace parts
+}  // namespace gn

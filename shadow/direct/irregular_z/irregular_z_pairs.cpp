@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Based on: Johnson, Lee, Burns, Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 2005.
+// [JLBM05]
+#include "shadow/direct/irregular_z/irregular_z_pairs.h"
+
+#include "shadow/casters/touched_texels.h"
+#include "shadow/geometry/occluders.h"
+#include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/prepared.h"
+
+namespace gn {
+namespace {
+
+constexpr const char* sample_main = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    GnReceiver receiver;
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy))) || !read_sample(pixel, receiver)) {
+        return;
+    }
+    // Where two views overlap the first serves.
+    ivec3 texel = gn_irregular_z_texel(views[GN_CHOOSE(receiver, placement).first], receiver.p_ws);
+    uint sample_index = uint(pixel.y) * u.view.size.x + uint(pixel.x);
+    if (texel.z >= 0) {
+        VISIT
+    }
+}
+)";
+
+// A block of texels knows its sample that is farthest from the light, plus 1; 0 where it has none.
+constexpr const char* add_sample = R"(
+        gn_list_add(texel, sample_index);
+        GnLightView view = views[GN_CHOOSE(receiver, placement).first];
+        float depth = max(dot(view.depth_from_ws, vec4(receiver.p_ws, 1.0)), 0.0);
+        atomicMax(block_far[gn_block(texel)], floatBitsToUint(1.0 + depth));
+)";
+
+constexpr const char* block_text = R"(
+uint gn_block(ivec3 texel) { return (uint(texel.z) * u.blocks + uint(texel.y) / 8u) * u.blocks + uint(texel.x) / 8u; }
+)";
+
+// What lies beyond all samples of a block hides the light from none of them.
+constexpr const char* nearest_text = R"(
+    GnOccluder t = GnOccluder(a_ws, b_ws, c_ws, (occluder_kinds[triangle] & 2u) != 0u);
+    vec4 depth_from_ws = views[index].depth_from_ws;
+    float nearest = min(min(dot(depth_from_ws, vec4(t.a, 1.0)), dot(depth_from_ws, vec4(t.b, 1.0))),
+                        dot(depth_from_ws, vec4(t.c, 1.0)));
+    nearest -= 1.0e-5 * (1.0 + abs(nearest)) + u.reach * length(depth_from_ws.xyz);
+)";
+constexpr const char* wanted_text =
+    "uintBitsToFloat(block_far[gn_block(block * ivec3(8, 8, 1))]) >= 1.0 + nearest && "
+    "block_far[gn_block(block * ivec3(8, 8, 1))] != 0u";
+
+constexpr const char* walk_triangles = R"(
+        for (uint node = gn_list_first(texel); node != 0u; node = gn_list_next(node)) {
+            uint triangle = gn_list_value(node);
+            gn_pair(sample_index, receiver.p_ws, receiver.n_ws, triangle, gn_occluder(triangle), true);
+        }
+)";
+
+constexpr const char* walk_samples = R"(
+            uint node = gn_list_first(texel);
+            for (; node != 0u; node = gn_list_next(node)) {
+                uint sample_index = gn_list_value(node);
+                ivec2 pixel = ivec2(sample_index % u.width, sample_index / u.width);
+                gn_pair(sample_index, gbuffer_position_texel(pixel).xyz, gbuffer_normal_texel(pixel).xyz, triangle, t,
+                        GN_MASKED);
+            }
+            gn_cut = gn_cut || node != 0u;
+)";
+
+/// A pass over the view samples through the light views.
+void add_samples_pass(const FrameInput& input, const Recipe& recipe, const LightViews& views, const std::string& name,
+                      const ShaderInputs& more, const std::string& includes, const std::string& functions,
+                      std::string_view visit) {
+    ShaderInputs inputs = sample_inputs(input, recipe, views);
+    inputs.add(more);
+    const std::string defines = receiver_defines(recipe, views);
+    const std::string shared = sample_functions(input, recipe, views);
+    const Hasher key =
+        hashed(inputs).text(defines).text(shared).text(functions).text(includes).text(visit).text(views.part->id);
+    const auto shader = compute_once(input.prepared, name, key, [&] {
+        std::string main = sample_main;
+        main.replace(main.find("VISIT"), 5, visit);
+        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
+               include_line("shadow/direct/irregular_z/irregular_z.glsl") + includes + inputs.text() + shared +
+               functions + main;
+    });
+    input.graph.add_pass(
+        name, [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch_pixels(width, height);
+        });
+}
+
+/// The light's triangles that are masked, or those that hide all behind them.
+std::vector<TriangleRun> runs_of(const FrameInput& input, bool masked) {
+    const std::vector<CasterKind> kinds = caster_kinds(input);
+    if (!masked) {
+        return opaque_caster_runs(input.scene, kinds);
+    }
+    std::vector<TriangleRun> runs;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        const Object& object = input.scene.objects[i];
+        if (kinds[i] == CasterKind::masked && object.triangle_count > 0) {
+            runs.push_back({object.first_triangle, object.triangle_count});
+        }
+    }
+    return runs;
+}
+
+/// Triangles reach 1/256 of a texel further, more than rounding moves them and the samples by.
+std::string with_rounding(const std::string& margin) {
+    return (margin.empty() ? "" : margin + " + ") + std::string("0.00390625");
+}
+
+}  // namespace
+
+TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                            const SamplePairs& pairs) {
+    const uvec3 size(views.resolution, views.resolution, views.layers);
+    const std::uint64_t texels = std::uint64_t{size.x} * size.y * size.z;
+    const std::uint64_t samples = std::uint64_t{input.samples.width} * input.samples.height;
+    const std::uint64_t triangles = input.scene.triangles.size();
+    const TexelLists lists =
+        add_texel_lists(input, pairs.name, size, pairs.list_triangles ? 4 * texels + 16 * triangles : samples);
+    ShaderInputs asked = pairs.inputs;
+    add_occluders(asked, input);
+    const std::string includes = occluder_includes() + pairs.includes;
+    const std::string functions = occluder_functions() + pairs.functions;
+
+    const std::uint32_t blocks = (size.x + 7) / 8;
+    const BufferHandle block_far = input.graph.create(BufferDesc{
+        .name = pairs.name + " blocks", .bytes = VkDeviceSize{blocks} * blocks * size.z * sizeof(std::uint32_t)});
+
+    // A texel lists its samples.
+    if (!pairs.list_triangles) {
+        ShaderInputs inputs;
+        add_lists(inputs, lists, ListAccess::add);
+        inputs.buffer("buffer", "BlockFar", "uint block_far[];", block_far).constant("uint", "blocks", blocks);
+        input.graph.add_pass(
+            pairs.name + ": blocks", [&](PassBuilder& builder) { builder.copy_to(block_far); },
+            [block_far](Recorder& r) { r.fill(block_far, 0); });
+        add_samples_pass(input, recipe, views, pairs.name + ": lists", inputs, "",
+                         list_functions(ListAccess::add) + block_text, add_sample);
+    }
+
+    // Every triangle visits the texels that it touches.
+    const ListAccess access = pairs.list_triangles ? ListAccess::add : ListAccess::read;
+    for (const bool masked : {false, true}) {
+        TouchedTexels touched{.name = pairs.name + (masked ? ": masks" : ": triangles")};
+        touched.margin = with_rounding(pairs.margin);
+        touched.runs = runs_of(input, masked);
+        touched.alone = pairs.alone;
+        touched.shares = pairs.shares;
+        if (pairs.list_triangles) {
+            touched.inputs = pairs.inputs;
+            touched.body = "gn_list_add(texel, triangle);";
+        } else {
+            touched.includes = fmt::format("#define GN_MASKED {}\n", masked);
+            touched.inputs = asked;
+            add_gbuffer(touched.inputs, input.device, input.samples);
+            touched.inputs.constant("uint", "width", input.samples.width);
+            touched.functions = functions;
+            touched.inputs.buffer("readonly buffer", "BlockFar", "uint block_far[];", block_far);
+            touched.inputs.constant("uint", "blocks", blocks).constant("float", "reach", pairs.reach);
+            touched.functions += block_text;
+            touched.triangle_body = nearest_text;
+            touched.wanted = wanted_text;
+            touched.body = walk_samples;
+        }
+        touched.includes += includes;
+        add_lists(touched.inputs, lists, access);
+        touched.functions += list_functions(access);
+        add_touched_texels(input, views, touched);
+    }
+
+    // Or samples walk the triangles that their texel lists.
+    if (pairs.list_triangles) {
+        ShaderInputs inputs = asked;
+        add_lists(inputs, lists, ListAccess::read);
+        add_samples_pass(input, recipe, views, pairs.name + ": samples", inputs, includes,
+                         functions + list_functions(ListAccess::read), walk_triangles);
+    }
+    return lists;
+}
+
+}  // namespace gn

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Every view sample with every triangle that may hide the light from it: the lists of an irregular z-buffer, for whatever is
+// asked of such a pair.
+#pragma once
+
+#include "gpu/shader_inputs.h"
+#include "shadow/casters/texel_lists.h"
+#include "shadow/recipe/recipe.h"
+
+namespace gn {
+
+/// What is done with a pair.
+struct SamplePairs {
+    std::string name;      ///< of the passes, "irregular-z"
+    std::string includes;  ///< GLSL before everything
+    ShaderInputs inputs;   ///< beside the G-buffer and add_occluders
+    /// GLSL of `void gn_pair(uint sample_index, vec3 p_ws, vec3 n_ws, uint triangle, GnOccluder t, bool masked)`: called once for
+    /// each counted view sample, by row and column, and each triangle that may hide the light from it, in any order.
+    std::string functions;
+    std::string margin;  ///< TouchedTexels::margin; "" is none
+    float reach = 0;      ///< metres from the light's centre, for one with a position, within which what hides it may lie
+    int alone = 512;           ///< TouchedTexels::alone and shares: fewer and more where a pair takes long
+    std::uint32_t shares = 1;
+    bool list_triangles =
+        false;  ///< texels list triangles, which samples walk; else they list samples, which triangles walk
+};
+/// Asks all pairs; `inputs` say what it writes. Gives the lists that it made. Throws Refusal.
+TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                            const SamplePairs& pairs);
+
+}  // namespace gn

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The irregular z-buffer against the traced hard shadow, and against itself through other lists and grids.
+#include "shadow/direct/irregular_z/irregular_z.h"
+
+#include "base/paths.h"
+#include "shadow/geometry/occluder.glsl"
+#include "tests/direct_scenes.h"
+#include "tests/thorough.h"
+
+#include <filesystem>
+#include <random>
+
+namespace gn {
+namespace {
+
+using namespace by_hand;
+using glsl::GnOccluder;
+
+/// Whether the open segment from p to the light crosses the triangle, in double precision; nothing where rounding decides.
+std::optional<bool> crosses(const std::array<dvec3, 3>& t, dvec3 p, dvec4 light) {
+    const dvec3 d = dvec3(light) - p * light.w;
+    const dvec3 n = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
+    const double start = glm::dot(n, p - t[0]);
+    const double end = light.w > 0 ? glm::dot(n, dvec3(light) - t[0]) : start + 1e9 * glm::dot(n, d);
+    double least = 1e9;
+    double most = -1e9;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const dvec3 edge = glm::cross(t[(i + 1) % 3] - p, t[(i + 2) % 3] - p);
+        const double share = glm::dot(glm::normalize(d), edge) / glm::length(edge);
+        least = std::min(least, share);
+        most = std::max(most, share);
+    }
+    if (std::min({std::abs(start), std::abs(end), std::abs(least), std::abs(most)}) < 1e-4) {
+        return {};
+    }
+    return (start > 0) != (end > 0) && (least > 0 || most < 0);
+}
+
+TEST(Occluder, HidesWhatLiesBehindItOnTheWayToTheLight) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const auto any = [&] { return 3.0F * vec3(unit(random), unit(random), unit(random)); };
+    std::array<int, 2> found{};
+    for (int i = 0; i < 40000; ++i) {
+        GnOccluder t{any(), any(), any(), i % 3 == 0};
+        const vec3 p = any();
+        const vec4 light = i % 2 == 0 ? vec4(any(), 1) : vec4(glm::normalize(any()), 0);
+        const auto exact = crosses({dvec3(t.a), dvec3(t.b), dvec3(t.c)}, dvec3(p), dvec4(light));
+        const vec3 to_light = glm::normalize(glsl::gn_towards(p, light));
+        const vec3 n_t = glm::cross(t.b - t.a, t.c - t.a);
+        if (exact) {
+            // A light that sees the back of what has one side is not hidden by it.
+            const bool seen = !t.one_sided || glm::dot(n_t, to_light) > 0;
+            const bool hides = glsl::gn_occluder_hides(t, p, to_light, light);
+            EXPECT_EQ(hides, *exact && seen) << i;
+            ++found.at(hides ? 1 : 0);
+        }
+    }
+    EXPECT_GT(found[0], 10000);
+    EXPECT_GT(found[1], 1000);
+}
+
+TEST(Occluder, LeavesNoGapBetweenTrianglesThatShareAnEdge) {
+    // A fan around a vertex, and rays at its spokes as exactly as floats can be: one triangle or both are met, never none.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    int met = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const vec3 middle(unit(random), 2, unit(random));
+        std::array<vec3, 5> rim{};
+        for (std::size_t k = 0; k < rim.size(); ++k) {
+            const float angle = 2 * pi * (static_cast<float>(k) + 0.4F * unit(random)) / 5;
+            rim.at(k) = middle + vec3(std::cos(angle), 0.2F * unit(random), std::sin(angle));
+        }
+        const vec3 p(unit(random), 0, unit(random));
+        const vec3 at = glm::mix(middle, rim.at(static_cast<std::size_t>(i) % 5), 0.5F * (unit(random) + 1) * 0.9F);
+        const vec4 light = i % 2 == 0 ? vec4(p + 2.0F * (at - p), 1) : vec4(at - p, 0);
+        int hits = 0;
+        for (std::size_t k = 0; k < rim.size(); ++k) {
+            // Every other triangle runs the other way round.
+            const vec3 b = rim.at(k);
+            const vec3 c = rim.at((k + 1) % 5);
+            const GnOccluder t = k % 2 == 0 ? GnOccluder{middle, b, c, false} : GnOccluder{c, b, middle, false};
+            hits += glsl::gn_occluder_hides(t, p, vec3(0, 1, 0), light) ? 1 : 0;
+        }
+        EXPECT_GE(hits, 1) << i;
+        met += hits;
+    }
+    EXPECT_LT(met, 2 * 20000);
+}
+
+std::vector<float> visibility(const Scene& scene, const Recipe& recipe, std::size_t light, uint width, uint height) {
+    const test::ValidationGuard guard;
+    SceneGpu uploaded = upload_scene(device(), scene);
+    const FrameResult frame = render_frame(device(), uploaded, scene.cameras.front(), recipe,
+                                           {.width = width, .height = height, .picture = false});
+    EXPECT_EQ(frame.refused[light], "");
+    return frame.visibility[light].values;
+}
+
+/// Boxes, a torus, loose triangles and a leaf with holes over a ground, under every kind of light.
+Scene garden() {
+    SceneBuilder b;
+    Texture holes{.name = "holes",
+                  .image = {2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 0, 255, 255, 255, 255}}};
+    const int leaf = b.material({.name = "leaf", .alpha_mode = AlphaMode::mask}, &holes);
+    const int one = b.material({.name = "one side", .double_sided = false});
+    b.ground(10).box({-1, 0, -1}, {0, 1.3F, 0.2F}).torus({1.4F, 1, 0}, 0.7F, 0.25F, 12);
+    b.soup({{-2, 0.3F, 1}, {2, 2, 2}}, 0.8F, 30, 4);
+    b.quad({-2, 1.6F, -2}, {-0.6F, 1.7F, -2}, {-0.6F, 1.7F, -0.8F}, {-2, 1.6F, -0.8F}, leaf);
+    b.quad({0.8F, 1.9F, -2}, {1.9F, 1.9F, -2}, {1.9F, 1.9F, -1}, {0.8F, 1.9F, -1}, one);
+    b.camera({3.4F, 3.6F, 4.4F}, {0, 0.4F, 0});
+    b.light(sun({0.3F, -1, -0.2F})).light(point({0.5F, 2.9F, 0.4F})).light(spot({-3, 4, 2}, {0, 0, 0}, 0.5F));
+    b.light(rectangle({-1, 3.6F, 0.4F}, {0, 0, 0}));
+    return b.scene();
+}
+
+TEST(IrregularZRendered, EqualsTheTracedHardShadow) {
+    const Scene scene = garden();
+    for (const char* lists : {"samples", "triangles"}) {
+        Recipe recipe = load_recipe(fmt::format("irregular-z,resolution=64,irregular-z.lists={}", lists));
+        for (const Comparison& result : render_and_judge(scene, recipe)) {
+            EXPECT_EQ(result.wrong, 0U) << lists << ", " << result.judged << " judged: " << result.first;
+            EXPECT_GT(result.shadowed, 300U);
+            EXPECT_GT(result.lit, 500U);
+        }
+    }
+}
+
+TEST(IrregularZRendered, IsTheSameOnEveryGridAndPlacementToTheBit) {
+    const Scene scene = garden();
+    for (const std::size_t light : {0U, 1U}) {
+        Recipe recipe = load_recipe("irregular-z,resolution=64");
+        const std::vector<float> fine = visibility(scene, recipe, light, 64, 48);
+        for (const char* other : {"resolution=300", "placement=cascades+auto", "irregular-z.lists=triangles"}) {
+            EXPECT_EQ(visibility(scene, load_recipe(fmt::format("irregular-z,resolution=64,{}", other)), light, 64, 48),
+                      fine)
+                << other;
+        }
+        recipe.resolution = 1;
+        EXPECT_EQ(visibility(scene, recipe, light, 64, 48), fine) << "one texel";
+    }
+}
+
+void expect_exact(Scene scene, const std::string& name, uint width, uint height) {
+    for (Light& light : scene.lights) {
+        light.shape.radius = light.shape.angular_radius = 0.0F;
+        light.shape.half_size = vec2(0);
+    }
+    const std::vector<Comparison> results =
+        render_and_judge(scene, load_recipe("irregular-z,resolution=512"), width, height);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        EXPECT_EQ(results[i].wrong, 0U) << name << ", light " << i << ", " << results[i].judged
+                                        << " judged: " << results[i].first;
+    }
+}
+
+TEST(IrregularZRendered, BuiltInScenesWithPointsForLightsHaveNoMismatch) {
+    for (const char* name : {"slab", "tilted", "contact", "fence", "courtyard"}) {
+        expect_exact(make_builtin_scene(name), name, 128, 96);
+    }
+}
+
+TEST(IrregularZRendered, ModelsHaveNoMismatch) {
+    if (!test::thorough()) {
+        GTEST_SKIP() << "skipped: half a minute, for thorough runs";
+    }
+    for (const char* name :
+         {"courtyard_zdm2", "kenney_city", "chairs_table", "thin_structures", "classic", "rooms_grid"}) {
+        const std::filesystem::path folder = data_root() / "../shared/scenes" / name;
+        for (const auto& file : std::filesystem::directory_iterator(folder)) {
+            if (file.path().extension() == ".glb" || file.path().extension() == ".gltf") {
+                expect_exact(load_scene(file.path().string(), {.ground = {Ground::automatic}}), file.path().string(),
+                             128, 96);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gn
