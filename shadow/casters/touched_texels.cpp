@@ -133,7 +133,8 @@ std::string text_of(const TouchedTexels& touched, const ShaderInputs& inputs, co
     replace(all, "WANTED", touched.wanted);
     replace(all, "BODY", touched.body);
     // Texels that a triangle's own invocation walks, and those that its own workgroup does.
-    return fmt::format("#define GN_SMALL {}u\n#define GN_HUGE 4096u\n#define GN_MARGIN ({})\n", touched.alone, touched.margin) +
+    return fmt::format("#define GN_SMALL {}u\n#define GN_HUGE 4096u\n#define GN_MARGIN ({})\n", touched.alone,
+                       touched.margin) +
            include_line("shadow/light_view.h") + include_line("shadow/casters/conservative.glsl") +
            include_line("shadow/casters/tiles.glsl") + touched.includes + inputs.text() + touched.functions + all;
 }
@@ -144,9 +145,10 @@ void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut
         std::uint32_t was_cut = 0;
         std::memcpy(&was_cut, bytes.data(), sizeof was_cut);
         if (was_cut != 0 && remarks != nullptr) {
-            remarks->insert(fmt::format("the driver ended a loop of pass '{}' early, so that shadows are missing in this frame; "
-                                        "a larger resolution makes loops shorter",
-                                        name));
+            remarks->insert(
+                fmt::format("the driver ended a loop of pass '{}' early, so that shadows are missing in this frame; "
+                            "a larger resolution makes loops shorter",
+                            name));
         }
     });
 }
@@ -202,7 +204,8 @@ void add_touched_texels(const FrameInput& input, const LightViews& views, const 
         });
     graph.add_pass(
         touched.name + ": large", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shares = touched.shares, shader = shader(": large", std::string(walk_text) + large_main)](Recorder& r) {
+        [inputs, shares = touched.shares,
+         shader = shader(": large", std::string(walk_text) + large_main)](Recorder& r) {
             r.bind(*shader);
             inputs.set(r);
             r.dispatch(large_groups, shares);

@@ -29,8 +29,8 @@ struct TouchedTexels {
     /// GLSL: texels by which a triangle reaches further along both axes, of its corners `vec3 a, b, c` as gn_texel_position gives
     /// them, `vec3 a_ws, b_ws, c_ws`, and the `GnLightView view`.
     std::string margin = "0.0";
-    int alone = 512;  ///< texels that a triangle's own invocation walks; more are shared out
-    std::uint32_t shares = 1;  ///< workgroups that share one such triangle of at most 4096 texels
+    int alone = 512;                ///< texels that a triangle's own invocation walks; more are shared out
+    std::uint32_t shares = 1;       ///< workgroups that share one such triangle of at most 4096 texels
     std::vector<TriangleRun> runs;  ///< of Scene::triangles
 };
 /// Passes that do it in every view. Views of every kind but paraboloids.

@@ -18,8 +18,8 @@ struct SamplePairs {
     /// each counted view sample, by row and column, and each triangle that may hide the light from it, in any order.
     std::string functions;
     std::string margin;  ///< TouchedTexels::margin; "" is none
-    float reach = 0;      ///< metres from the light's centre, for one with a position, within which what hides it may lie
-    int alone = 512;           ///< TouchedTexels::alone and shares: fewer and more where a pair takes long
+    float reach = 0;  ///< metres from the light's centre, for one with a position, within which what hides it may lie
+    int alone = 512;  ///< TouchedTexels::alone and shares: fewer and more where a pair takes long
     std::uint32_t shares = 1;
     bool list_triangles =
         false;  ///< texels list triangles, which samples walk; else they list samples, which triangles walk
