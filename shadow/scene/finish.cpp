@@ -2,6 +2,7 @@
 // Completing a scene: what every later stage may rely on is established here.
 #include "base/error.h"
 #include "shadow/scene/clusters.h"
+#include "shadow/scene/cookie.h"
 #include "shadow/scene/ground.h"
 #include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
@@ -106,6 +107,11 @@ void check_structure(Scene& scene) {
     for (Material& material : scene.materials) {
         if (material.base_color_texture >= static_cast<int>(scene.textures.size())) {
             material.base_color_texture = -1;
+        }
+    }
+    for (Light& light : scene.lights) {
+        if (light.cookie >= static_cast<int>(scene.textures.size()) || !gn_takes_cookie(light.shape)) {
+            light.cookie = -1;
         }
     }
 }

@@ -247,6 +247,7 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model) {
 
     // Move what stands in the world.
     for (PlacedLight& light : part.lights) {
+        light.light.cookie += light.light.cookie >= 0 ? first_texture : 0;
         move_light(light, ws_from_model);
     }
     for (PlacedCamera& camera : part.cameras) {

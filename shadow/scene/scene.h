@@ -61,6 +61,7 @@ struct Light {
     GnLight shape;
     std::vector<std::uint32_t> spared;  ///< objects that cast no shadow of it, ascending; set by finish_scene
     GnSky sky{};                        ///< of an environment
+    int cookie = -1;  ///< index into Scene::textures, or -1: what its colour is multiplied by (shadow/scene/cookie.h)
 };
 
 /// A perspective camera, or an orthographic one, whose rays run side by side. It looks along forward_ws.

@@ -11,8 +11,14 @@
 namespace gn {
 namespace {
 
-/// Lights of one pass: as many textures as every device binds, besides those of the view samples.
+/// Lights of one pass: as many textures as every device binds, besides those of the view samples; where a light has a cookie each
+/// counts twice.
 constexpr std::size_t most_lights = 8;
+std::size_t lights_at_once(std::span<const Light> lights) {
+    const bool cookies =
+        std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.cookie >= 0; });
+    return cookies ? most_lights / 2 : most_lights;
+}
 
 constexpr const char* environment_text = R"(
 vec3 environment(ivec2 pixel, vec4 position, Seen seen) {
@@ -48,19 +54,22 @@ Seen seen_at(ivec2 pixel, vec3 p_ws) {
 }
 )";
 
-/// Adds light `i`, whose kind is known; without a visibility it is seen from everywhere.
-std::string light_text(std::size_t i, uint kind, std::string_view visibility) {
+/// Adds light `i`, whose kind is known; without a visibility it is seen from everywhere. A cookie colours it.
+std::string light_text(std::size_t i, const Light& given, std::string_view visibility) {
+    const std::string cookie =
+        given.cookie < 0 ? ""
+                         : fmt::format(" * textureLod(cookie{}, gn_cookie_place(light, position.xyz), 0.0).rgb", i);
     return fmt::format(R"(
     light = u.light{0};
     light.kind = {1}u;
     if (surface && gn_counted(light, position.xyz, normal)) {{
         vec3 v = {2};
-        radiance += light.color.rgb * gn_illuminance(light, position.xyz) * v *
+        radiance += light.color.rgb * gn_illuminance(light, position.xyz){3} * v *
                     gn_reflect(seen.n_ws, seen.to_eye_ws, gn_to_light(light, position.xyz), seen.base_color,
                                seen.roughness, seen.metallic);
     }}
 )",
-                       i, kind, visibility);
+                       i, given.shape.kind, visibility, cookie);
 }
 
 /// One pass: what came before, and the lights that it adds.
@@ -113,6 +122,14 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
     for (std::size_t i = 0; i < pass.lights.size(); ++i) {
         inputs.constant("GnLight", fmt::format("light{}", i), pass.lights[i].shape);
         add_visibility(inputs, input, i, pass.visibility[i]);
+        if (pass.lights[i].cookie >= 0) {
+            const auto cookie = static_cast<std::size_t>(pass.lights[i].cookie);
+            SamplerDesc sampler = linear();
+            sampler.address = input.scene.textures.at(cookie).repeat_u ? VK_SAMPLER_ADDRESS_MODE_REPEAT
+                                                                       : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+            sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+            inputs.texture("sampler2D", fmt::format("cookie{}", i), input.handles.textures.at(cookie), sampler);
+        }
     }
     return inputs;
 }
@@ -120,12 +137,12 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
 std::string compose(const FrameInput& input, const ShadingPass& pass, const ShaderInputs& inputs) {
     std::string lights;
     for (std::size_t i = 0; i < pass.lights.size(); ++i) {
-        lights += light_text(i, pass.lights[i].shape.kind, visibility_text(input, i, pass.visibility[i]));
+        lights += light_text(i, pass.lights[i], visibility_text(input, i, pass.visibility[i]));
     }
     return std::string(adds_emission(input, pass) ? "#define GN_EMISSION\n" : "") +
            include_line("shadow/view/view.glsl") + include_line("shadow/view/surface.glsl") +
-           include_line("shadow/shading/shading.glsl") + inputs.text() + "layout(location = 0) out vec4 picture;\n" +
-           seen_text + (pass.before.valid() ? "" : environment_text) +
+           include_line("shadow/shading/shading.glsl") + include_line("shadow/scene/cookie.h") + inputs.text() +
+           "layout(location = 0) out vec4 picture;\n" + seen_text + (pass.before.valid() ? "" : environment_text) +
            R"(
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -144,7 +161,9 @@ std::uint64_t key_of(const FrameInput& input, const ShadingPass& pass, const Sha
     Hasher hasher = hashed(inputs);
     for (std::size_t i = 0; i < pass.lights.size(); ++i) {
         const TextureHandle image = pass.visibility[i];
-        hasher.value(pass.lights[i].shape.kind).value(image.valid() ? channels_of(input.graph, image) : 0U);
+        hasher.value(pass.lights[i].shape.kind)
+            .value(pass.lights[i].cookie >= 0)
+            .value(image.valid() ? channels_of(input.graph, image) : 0U);
     }
     return hasher.finish().low;
 }
@@ -178,7 +197,7 @@ TextureHandle add_shading(const FrameInput& input, std::span<const TextureHandle
     ShadingPass pass;
     std::size_t first = 0;
     do {
-        pass.lights = lights.subspan(first, std::min(most_lights, lights.size() - first));
+        pass.lights = lights.subspan(first, std::min(lights_at_once(lights), lights.size() - first));
         pass.visibility.clear();
         for (std::size_t i = first; i < first + pass.lights.size(); ++i) {
             pass.visibility.push_back(i < visibility.size() ? visibility[i] : TextureHandle{});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // .toml scenes: files, lights, cameras and camera paths placed by hand. docs/scenes.md has the keys.
+#include "shadow/scene/cookie.h"
 #include "shadow/scene/files/given_sky.h"
 #include "shadow/scene/files/toml_table.h"
 #include "shadow/scene/files/upright.h"
@@ -139,10 +140,28 @@ double not_negative(const TomlTable& table, std::string_view key, double otherwi
     return value;
 }
 
-void add_light(const TomlTable& table, Model& model) {
-    static constexpr std::array<std::string_view, 14> keys{
-        "kind",      "name",   "position",           "direction", "look_at",   "up",        "color",
-        "intensity", "radius", "angular_radius_deg", "size",      "inner_deg", "outer_deg", "range"};
+// The picture in front of a light, as a texture of the model.
+int add_cookie(const TomlTable& table, const GnLight& shape, const Folder& folder, Model& model) {
+    if (!table.has("cookie")) {
+        return -1;
+    }
+    if (!gn_takes_cookie(shape)) {
+        fail("{}: key 'cookie' is of spots with outer_deg below 90 and of points; {} has none", table.where(),
+             light_kind_names.at(shape.kind));
+    }
+    const std::string name = table.text("cookie", "");
+    model.textures.push_back({.name = clean_text(name),
+                              .image = decode_image(read_file(folder.resolve(name)), clean_text(name)),
+                              .repeat_u = shape.kind == GN_LIGHT_POINT,
+                              .repeat_v = false});
+    return static_cast<int>(model.textures.size()) - 1;
+}
+
+void add_light(const TomlTable& table, const Folder& folder, Model& model) {
+    static constexpr std::array<std::string_view, 15> keys{
+        "kind", "name",      "position",  "direction", "look_at",
+        "up",   "color",     "intensity", "radius",    "angular_radius_deg",
+        "size", "inner_deg", "outer_deg", "range",     "cookie"};
     table.check_keys(keys);
     PlacedLight placed;
     GnLight& shape = placed.light.shape;
@@ -180,6 +199,7 @@ void add_light(const TomlTable& table, Model& model) {
     const double outer = not_negative(table, "outer_deg", 45.0);
     shape.cos_outer = static_cast<float>(std::cos(glm::radians(outer)));
     shape.cos_inner = static_cast<float>(std::cos(glm::radians(not_negative(table, "inner_deg", 0.8 * outer))));
+    placed.light.cookie = add_cookie(table, shape, folder, model);
     model.lights.push_back(std::move(placed));
 }
 
@@ -318,7 +338,7 @@ Model load_toml(const std::filesystem::path& path, const Assets& assets) {
     allowed.push_back(folder.root());
     Model model;
     for (const TomlTable& light : table.tables("light")) {
-        add_light(light, model);
+        add_light(light, folder, model);
     }
     if (const std::optional<TomlTable> sky = table.inner("environment")) {
         model.environment = read_environment(*sky);

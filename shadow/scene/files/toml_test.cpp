@@ -70,6 +70,21 @@ far = 60
     EXPECT_FLOAT_EQ(front.far, 60.0F);
 }
 
+TEST(Toml, ALightsCookieIsATextureOfItsOwn) {
+    const TempFolder folder;
+    const auto mistake = [&](const std::string& text) {
+        try {
+            static_cast<void>(load_scene(folder.write("c.toml", text)));
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(mistake("[[light]]\nkind = \"directional\"\ncookie = \"leaf.png\"\n").find("is of spots"),
+              std::string::npos);
+    EXPECT_NE(mistake("[[light]]\nkind = \"spot\"\ncookie = \"leaf.png\"\n").find("leaf.png"), std::string::npos);
+}
+
 TEST(Toml, PathsInterpolateTheirKeys) {
     const TempFolder folder;
     const Scene scene = load_scene(folder.write("s.toml", R"(
