@@ -125,8 +125,9 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
         if (pass.lights[i].cookie >= 0) {
             const auto cookie = static_cast<std::size_t>(pass.lights[i].cookie);
             SamplerDesc sampler = linear();
-            sampler.address = input.scene.textures.at(cookie).repeat_u ? VK_SAMPLER_ADDRESS_MODE_REPEAT
-                                                                       : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+            // Longitudes go around; a cone has borders.
+            sampler.address = pass.lights[i].shape.kind == GN_LIGHT_POINT ? VK_SAMPLER_ADDRESS_MODE_REPEAT
+                                                                          : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
             sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
             inputs.texture("sampler2D", fmt::format("cookie{}", i), input.handles.textures.at(cookie), sampler);
         }
