@@ -64,7 +64,8 @@ OccluderBuffers make_buffers(Device& device, const Scene& scene) {
     for (const Material& material : scene.materials) {
         masks.push_back(mask_of(scene, material, alpha));
     }
-    std::vector<std::uint32_t> words(alpha.size() / 4 + 1);
+    alpha.resize(alpha.size() / 4 * 4 + 4);  // whole words, and never none
+    std::vector<std::uint32_t> words(alpha.size() / 4);
     std::memcpy(words.data(), alpha.data(), alpha.size());
     return {upload(device, "occluder kinds", kinds), upload(device, "occluder masks", masks),
             upload(device, "occluder alpha", words)};
