@@ -3,8 +3,10 @@
 #include "shadow/casters/fins.h"
 
 #include "shadow/casters/caster_draw.h"
+#include "shadow/frame/frame.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/seen_light.glsl"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -25,6 +27,31 @@ void main() {
     float off = distance(p_ws, edge_ws) / max(unit_ws, 1.0e-30);
     float edge_depth = dot(views[index].depth_from_ws, vec4(edge_ws, 1.0));
     ivec3 texel = ivec3(gl_FragCoord.xy, views[index].layer);
+)";
+
+constexpr const char* resolve_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    float v = 0.0;
+    GnReceiver receiver;
+    if (read_sample(pixel, receiver)) {
+        v = 1.0;
+        GnLightView view = views[GN_CHOOSE(receiver, placement).first];
+        GnProjected p = gn_project(receiver, view, u.bias);
+        if (p.inside) {
+            ivec2 texel = ivec2(floor(p.uv_ts / p.texel_ts));
+            vec2 centre_ts = (vec2(texel) + 0.5) * p.texel_ts;
+            float occluder = texelFetch(depth_map, ivec3(texel, view.layer), 0).r;
+            vec4 fin = texelFetch(fins, ivec3(texel, view.layer), 0);
+            v = gn_depth_at(p, centre_ts, u.bias) > occluder ? 0.0 : (GN_FIN_LIGHT);
+        }
+    }
+    imageStore(visibility, pixel, vec4(v));
+}
 )";
 
 ShaderInputs fin_inputs(const FrameInput& input, const VolumeBuffers& buffers, const LightViews& views,
@@ -80,6 +107,24 @@ void add_fins(const FrameInput& input, const VolumeBuffers& buffers, const Light
             });
         begun[layer] = true;
     }
+}
+
+Visibility add_fin_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle depth,
+                           TextureHandle fins, const FinLookup& lookup) {
+    Visibility result{create_visibility(input.graph, input.samples)};
+    ShaderInputs inputs = sample_inputs(input, recipe, views);
+    inputs.texture("sampler2DArray", "depth_map", depth)
+        .texture("sampler2DArray", "fins", fins)
+        .image("r32f", "writeonly", "image2D", "visibility", result.image);
+    const std::string defines = receiver_defines(recipe, views);
+    const std::string functions = sample_functions(input, recipe, views);
+    const Hasher key = hashed(inputs).text(defines).text(functions).text(views.part->id).text(lookup.light);
+    const auto shader = compute_once(input.prepared, lookup.name, key, [&] {
+        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) + inputs.text() +
+               functions + fmt::format("#define GN_FIN_LIGHT {}\n", lookup.light) + resolve_text;
+    });
+    add_pixel_pass(input.graph, std::string(lookup.name), inputs, shader, input.samples.width, input.samples.height);
+    return result;
 }
 
 VolumeBuffers add_fin_edges(const FrameInput& input) {

@@ -24,6 +24,15 @@ struct FinPass {
 void add_fins(const FrameInput& input, const VolumeBuffers& buffers, const LightViews& views, const FinPass& pass,
               TextureHandle image, ClearValue clear);
 
+/// How a receiver reads a map of fins where the shadow map leaves it light.
+struct FinLookup {
+    std::string_view name;   ///< of the pass
+    std::string_view light;  ///< GLSL: V by `vec4 fin`, the image's texel, `view` and `receiver`
+};
+/// V: 0 in the hard shadow of the map `depth`, beside it as the fins in the texel say.
+Visibility add_fin_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle depth,
+                           TextureHandle fins, const FinLookup& lookup);
+
 /// The silhouettes that fins stand on, of opaque casters: masked ones have no outline that geometry knows.
 VolumeBuffers add_fin_edges(const FrameInput& input);
 /// The sentence why a placement's views cannot hold fins, or "".

@@ -5,6 +5,7 @@
 #include "shadow/embed/lent_camera.h"
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/recipe/prepared.h"
 
 namespace gn::embed {
@@ -59,13 +60,7 @@ ViewSamples add_lent_receivers(FrameGraph& graph, const ReceiverForm& form, cons
                "#include \"shadow/receiver/octahedral.glsl\"\n" + inputs.text() +
                "#include \"shadow/embed/lent_pixels.glsl\"\n";
     });
-    graph.add_pass(
-        "lent receivers", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [=, width = lent.width, height = lent.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(graph, "lent receivers", inputs, shader, lent.width, lent.height);
     return samples;
 }
 

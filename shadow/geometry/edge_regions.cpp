@@ -6,6 +6,7 @@
 #include "shadow/geometry/draw.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/geometry/seen_light.glsl"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
@@ -202,13 +203,7 @@ Visibility add_edge_resolve(const FrameInput& input, TextureHandle hard, Texture
                            resolve.more.valid() ? "more_texel(pixel)" : "vec4(0.0)", resolve.expression) +
                include_line("shadow/scene/light.h") + std::string(resolve.includes) + inputs.text() + resolve_text;
     });
-    input.graph.add_pass(
-        std::string(resolve.name), [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, std::string(resolve.name), inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/stats.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 
 #include <algorithm>
@@ -107,13 +108,7 @@ void add_lit(const FrameInput& input, const char* name, const Visibility& result
         return (all ? "" : "#define GN_ONLY_UNSHADOWED\n") + include_line("shadow/view/view.glsl") + inputs.text() +
                unshadowed_text;
     });
-    input.graph.add_pass(
-        name, [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, size = uvec2(samples.width, samples.height)](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(size.x, size.y);
-        });
+    add_pixel_pass(input.graph, name, inputs, shader, samples.width, samples.height);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "gpu/shader_inputs.h"
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/pixel_pass.h"
 
 #include <algorithm>
 
@@ -44,13 +45,7 @@ Visibility add_combined(const FrameInput& input, const Visibility& first, const 
     const auto shader = compute_once(input.prepared, "combine", key, [&] {
         return define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() + main_text;
     });
-    input.graph.add_pass(
-        "combine", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(size.x, size.y);
-        });
+    add_pixel_pass(input.graph, "combine", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/caster_geometry.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -76,13 +77,7 @@ Visibility add_blobs(const FrameInput& input, const Recipe& recipe) {
             return include_line("shadow/scene/light.h") + include_line("shadow/direct/blob/blob.glsl") + inputs.text() +
                    text;
         });
-        input.graph.add_pass(
-            "blob", [&](PassBuilder& pass) { inputs.declare(pass); },
-            [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-                r.bind(*shader);
-                inputs.set(r);
-                r.dispatch_pixels(width, height);
-            });
+        add_pixel_pass(input.graph, "blob", inputs, shader, input.samples.width, input.samples.height);
     }
     return result;
 }

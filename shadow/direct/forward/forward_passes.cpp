@@ -3,6 +3,7 @@
 #include "shadow/direct/forward/forward_passes.h"
 
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -80,13 +81,7 @@ BufferHandle add_forward_samples(const FrameInput& input, const Recipe& recipe, 
         return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
                include_line("shadow/direct/forward/forward.glsl") + inputs.text() + functions + samples_text;
     });
-    input.graph.add_pass(
-        "forward: samples", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = samples.width, height = samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "forward: samples", inputs, shader, samples.width, samples.height);
     return buffer;
 }
 
@@ -132,13 +127,7 @@ Visibility add_forward_resolve(const FrameInput& input, BufferHandle samples, Bu
     const auto shader = compute_once(input.prepared, "forward-resolve.comp", hashed(inputs), [&] {
         return include_line("shadow/direct/forward/forward.glsl") + inputs.text() + resolve_text;
     });
-    input.graph.add_pass(
-        "forward: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "forward: resolve", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -12,6 +12,7 @@
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/placement/place.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -55,13 +56,7 @@ Visibility add_resolve_hidden(const FrameInput& input, BufferHandle hidden) {
     const auto shader = compute_once(input.prepared, "irregular-z.comp", hashed(inputs), [&] {
         return include_line("shadow/scene/light.h") + inputs.text() + resolve_text;
     });
-    input.graph.add_pass(
-        "irregular-z: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "irregular-z: resolve", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "shadow/casters/touched_texels.h"
 #include "shadow/geometry/occluders.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -87,13 +88,7 @@ void add_samples_pass(const FrameInput& input, const Recipe& recipe, const Light
                include_line("shadow/direct/irregular_z/irregular_z.glsl") + includes + inputs.text() + shared +
                functions + main;
     });
-    input.graph.add_pass(
-        name, [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, name, inputs, shader, input.samples.width, input.samples.height);
 }
 
 /// The light's triangles that are masked, or those that hide all behind them.

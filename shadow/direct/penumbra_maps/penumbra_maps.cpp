@@ -9,43 +9,12 @@
 
 #include "shadow/casters/fins.h"
 #include "shadow/casters/raster.h"
-#include "shadow/frame/frame.h"
 #include "shadow/frame/map_memory.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/placement/place.h"
-#include "shadow/receiver/sample_pass.h"
-#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
-
-constexpr const char* text = R"(
-layout(local_size_x = 8, local_size_y = 8) in;
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
-        return;
-    }
-    float v = 0.0;
-    GnReceiver receiver;
-    if (read_sample(pixel, receiver)) {
-        v = 1.0;
-        int index = GN_CHOOSE(receiver, placement).first;
-        GnLightView view = views[index];
-        GnProjected p = gn_project(receiver, view, u.bias);
-        if (p.inside) {
-            // The hard shadow is the umbra; beside it the penumbra map says how much light there is.
-            ivec2 texel = ivec2(floor(p.uv_ts / p.texel_ts));
-            vec2 centre_ts = (vec2(texel) + 0.5) * p.texel_ts;
-            float occluder = texelFetch(depth_map, ivec3(texel, view.layer), 0).r;
-            v = gn_depth_at(p, centre_ts, u.bias) > occluder
-                    ? 0.0
-                    : texelFetch(penumbrae, ivec3(texel, view.layer), 0).r;
-        }
-    }
-    imageStore(visibility, pixel, vec4(v));
-}
-)";
 
 constexpr const char* penumbra_text = R"(
     bool lamp = u.light_ws.w > 0.0;
@@ -54,30 +23,6 @@ constexpr const char* penumbra_text = R"(
     result = gn_penumbra_maps_light(off, (edge_depth - eye) * views[index].metres_per_depth,
                                     (surface - eye) * views[index].metres_per_depth, lamp);
 )";
-
-Visibility add_resolve_fins(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle depth,
-                            TextureHandle penumbrae) {
-    Visibility result{create_visibility(input.graph, input.samples)};
-    ShaderInputs inputs = sample_inputs(input, recipe, views);
-    inputs.texture("sampler2DArray", "depth_map", depth)
-        .texture("sampler2DArray", "penumbrae", penumbrae)
-        .image("r32f", "writeonly", "image2D", "visibility", result.image);
-    const std::string defines = receiver_defines(recipe, views);
-    const std::string functions = sample_functions(input, recipe, views);
-    const Hasher key = hashed(inputs).text(defines).text(functions).text(views.part->id);
-    const auto shader = compute_once(input.prepared, "penumbra-maps.comp", key, [&] {
-        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
-               include_line("shadow/direct/penumbra_maps/penumbra_maps.glsl") + inputs.text() + functions + text;
-    });
-    input.graph.add_pass(
-        "penumbra-maps: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
-    return result;
-}
 
 Visibility add_penumbra_maps(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
@@ -104,7 +49,8 @@ Visibility add_penumbra_maps(const FrameInput& input, const Recipe& recipe) {
               .fragment = penumbra_text,
               .extra = surfaces},
              penumbrae, {.color = vec4(1)});
-    return add_resolve_fins(input, recipe, views, depth, penumbrae);
+    // Beside the hard shadow, which is the umbra, the penumbra map says how much light there is.
+    return add_fin_resolve(input, recipe, views, depth, penumbrae, {"penumbra-maps: resolve", "fin.r"});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // radiance; the stencil keeps a sample from being darkened twice for one point.
 #include "shadow/direct/planar_soft/planar_soft_passes.h"
 #include "shadow/frame/frame.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/light_samples.h"
@@ -109,13 +110,7 @@ Visibility add_accumulated(const FrameInput& input, const ReceiverPlanes& found,
     const auto shader = compute_once(input.prepared, "planar-soft-mean.comp", hashed(inputs), [&] {
         return include_line("shadow/scene/light_samples.h") + inputs.text() + mean_text;
     });
-    input.graph.add_pass(
-        "planar-soft: mean", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "planar-soft: mean", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "shadow/direct/planar_soft/planar_soft_passes.h"
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/potential_receivers.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/clusters.h"
@@ -232,13 +233,7 @@ Visibility add_blurred(const FrameInput& input, const ReceiverPlanes& found, con
         return include_line("shadow/geometry/flattened.glsl") + include_line("shadow/scene/light.h") +
                include_line("shadow/direct/planar_soft/planar_soft.h") + inputs.text() + resolve_text;
     });
-    input.graph.add_pass(
-        "planar-soft: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "planar-soft: resolve", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "shadow/frame/map_memory.h"
 #include "shadow/geometry/receiver_planes.h"
 #include "shadow/placement/place.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
@@ -150,13 +151,7 @@ Visibility add_projective_texture(const FrameInput& input, const Recipe& recipe)
                include_line("shadow/direct/projective_texture/projective_texture.glsl") + inputs.text() + functions +
                text;
     });
-    input.graph.add_pass(
-        "projective-texture", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "projective-texture", inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

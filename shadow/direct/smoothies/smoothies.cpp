@@ -9,11 +9,8 @@
 
 #include "shadow/casters/fins.h"
 #include "shadow/casters/raster.h"
-#include "shadow/frame/frame.h"
 #include "shadow/frame/map_memory.h"
 #include "shadow/placement/place.h"
-#include "shadow/receiver/sample_pass.h"
-#include "shadow/recipe/prepared.h"
 
 namespace gn {
 namespace {
@@ -28,57 +25,8 @@ constexpr const char* fin_text = R"(
     result = vec2(light, light < 1.0 ? edge_depth : 1.0);
 )";
 
-constexpr const char* text = R"(
-layout(local_size_x = 8, local_size_y = 8) in;
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
-        return;
-    }
-    float v = 0.0;
-    GnReceiver receiver;
-    if (read_sample(pixel, receiver)) {
-        v = 1.0;
-        int index = GN_CHOOSE(receiver, placement).first;
-        GnLightView view = views[index];
-        GnProjected p = gn_project(receiver, view, u.bias);
-        if (p.inside) {
-            // The hard shadow is the umbra; beside it the fin in the texel decides.
-            ivec2 texel = ivec2(floor(p.uv_ts / p.texel_ts));
-            vec2 centre_ts = (vec2(texel) + 0.5) * p.texel_ts;
-            float occluder = texelFetch(depth_map, ivec3(texel, view.layer), 0).r;
-            vec2 fin = texelFetch(fins, ivec3(texel, view.layer), 0).rg;
-            bool behind = dot(view.depth_from_ws, vec4(receiver.p_ws, 1.0)) > fin.g;
-            v = gn_depth_at(p, centre_ts, u.bias) > occluder ? 0.0 : behind ? fin.r : 1.0;
-        }
-    }
-    imageStore(visibility, pixel, vec4(v));
-}
-)";
-
-Visibility add_resolve_fins(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle depth,
-                            TextureHandle fins) {
-    Visibility result{create_visibility(input.graph, input.samples)};
-    ShaderInputs inputs = sample_inputs(input, recipe, views);
-    inputs.texture("sampler2DArray", "depth_map", depth)
-        .texture("sampler2DArray", "fins", fins)
-        .image("r32f", "writeonly", "image2D", "visibility", result.image);
-    const std::string defines = receiver_defines(recipe, views);
-    const std::string functions = sample_functions(input, recipe, views);
-    const Hasher key = hashed(inputs).text(defines).text(functions).text(views.part->id);
-    const auto shader = compute_once(input.prepared, "smoothies.comp", key, [&] {
-        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
-               include_line("shadow/direct/smoothies/smoothies.glsl") + inputs.text() + functions + text;
-    });
-    input.graph.add_pass(
-        "smoothies: resolve", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = input.samples.width, height = input.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
-    return result;
-}
+/// Beside the hard shadow the fin in the texel decides, for what lies behind its edge.
+constexpr const char* light_text = "dot(view.depth_from_ws, vec4(receiver.p_ws, 1.0)) > fin.g ? fin.r : 1.0";
 
 Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
@@ -107,7 +55,7 @@ Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
               .result = "vec2",
               .extra = extra},
              fins, {.color = vec4(1, 1, 0, 0)});
-    return add_resolve_fins(input, recipe, views, depth, fins);
+    return add_fin_resolve(input, recipe, views, depth, fins, {"smoothies: resolve", light_text});
 }
 
 }  // namespace

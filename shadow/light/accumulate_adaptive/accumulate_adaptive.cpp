@@ -13,6 +13,7 @@
 #include "shadow/light/accumulate_adaptive/light_tree.h"
 #include "shadow/light/weighted.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/light_samples.h"
@@ -127,13 +128,7 @@ void add_watch(const FrameInput& one, const Watched& watched, int index, Texture
                "#include \"shadow/view/view.glsl\"\n#include \"shadow/scene/light_samples.h\"\n" + inputs.text() +
                watch_text;
     });
-    one.graph.add_pass(
-        "light: watch", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = one.samples.width, height = one.samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(one.graph, "light: watch", inputs, shader, one.samples.width, one.samples.height);
 }
 
 /// Where the parts of cells are compared: after the frame the counts are those that the next trees are made of.

@@ -9,6 +9,7 @@
 #include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/recipe.h"
 
@@ -168,13 +169,7 @@ Visibility add_columns(const FrameInput& input, const Recipe& recipe, TextureHan
                inputs.text() + (filters ? filter_text : search_text) + columns_text +
                (filters ? filter_main : search_main);
     });
-    input.graph.add_pass(
-        name, [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, size = uvec2(input.samples.width, input.samples.height)](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(size.x, size.y);
-        });
+    add_pixel_pass(input.graph, name, inputs, shader, input.samples.width, input.samples.height);
     return result;
 }
 

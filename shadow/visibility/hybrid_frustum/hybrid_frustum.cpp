@@ -8,6 +8,7 @@
 
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/channels.h"
+#include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 
 namespace gn::parts {
@@ -53,13 +54,7 @@ Visibility add_hybrid_frustum(const FrameInput& input, const Recipe& recipe, con
         return channels_text(channels) + include_line("shadow/view/view.glsl") +
                include_line("shadow/visibility/hybrid_frustum/hybrid_frustum.glsl") + inputs.text() + blend_text;
     });
-    input.graph.add_pass(
-        "hybrid-frustum", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, width = samples.width, height = samples.height](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch_pixels(width, height);
-        });
+    add_pixel_pass(input.graph, "hybrid-frustum", inputs, shader, samples.width, samples.height);
     return {blended};
 }
 
