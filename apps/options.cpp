@@ -29,6 +29,7 @@ constexpr const char* examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf,resolution=2048,pcf.taps=25 -o report
   gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
   gnomon bake pcf,placement=cascades -o baked      its shaders, for renderers that link no compiler
+  gnomon sweep sambeek-quality --quick             a grid of runs, into a file that grows and resumes
   gnomon doctor                                    what this machine's driver can do
 
 SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
@@ -65,6 +66,16 @@ manifest.txt, which says what is in it. It serves every device, every light that
 depth and normals; values that shaders are given (resolution, bias, ...) may differ from what was baked. It belongs to
 the library that wrote it: another version refuses it. Nothing is drawn, but Vulkan must be there, on any device.
 A folder that was baked before is replaced, once the new one is whole.)";
+
+constexpr const char* sweep_examples = R"(Examples:
+  gnomon sweep sambeek-quality --quick --report report       a shipped sweep's quick version, in minutes, and its page
+  gnomon sweep sambeek-performance --limit 30                thirty runs spread over the grid
+  gnomon sweep sambeek-performance --plan                    then: runs, hours and bytes that are left
+  gnomon sweep mine.toml --shard 2/4 -o part2.sqlite         the second of four parts, on another machine
+  gnomon merge part*.sqlite -o all.sqlite --report report    all parts in one file
+
+Each finished run is on the disk before the next begins: the same command again goes on where it ended, however that was.
+Shipped: kreuzer-resolution, lauritzen, sambeek-memory, sambeek-performance, sambeek-quality. docs/sweep.md has the format.)";
 
 Size parse_size(const std::string& text) {
     Size size{0, 0};
@@ -152,6 +163,9 @@ struct Parser {
     RenderOptions render;
     CompareOptions compare;
     BakeOptions bake;
+    SweepOptions sweep;
+    MergeOptions merge;
+    std::string reference;
     std::string render_size, compare_size;
     FileWords render_file, compare_file;
     CLI::Option* path = nullptr;
@@ -167,6 +181,7 @@ struct Parser {
         add_render();
         add_compare();
         add_bake();
+        add_sweep();
         app.add_subcommand("doctor", "What this machine's driver can do, and what that rules out");
         for (CLI::App* command : app.get_subcommands({})) {
             command->fallthrough();
@@ -193,6 +208,29 @@ struct Parser {
         command->add_option("RECIPE", bake.recipes, "Recipes with overrides")->required();
         command->add_option("-o,--output", bake.folder, "Folder to write")->required();
         command->footer(bake_examples);
+    }
+
+    void add_sweep() {
+        CLI::App* command = app.add_subcommand("sweep", "A grid of scenes, recipes, parameters and sizes, resumable");
+        command->add_option("FILE", sweep.file, "A shipped sweep's name, or a .toml file")->required();
+        command->add_option("-o,--output", sweep.output, "The file of results, which grows (default: NAME.sqlite)");
+        command->add_option("--report", sweep.report, "Write a page of curves, DIR/index.html, and DIR/runs.csv")
+            ->type_name("DIR");
+        command->add_option("--shard", sweep.shard, "I/N: only the I-th of N parts")->type_name("I/N");
+        command->add_option("--limit", sweep.limit, "Measure at most so many runs now")->check(CLI::Range(1, 1 << 30));
+        command->add_option("--threads", sweep.threads, "0 means all; changes no error, only times (default: 0)")
+            ->check(CLI::Range(0, 1024));
+        command->add_flag("--quick", sweep.quick, "The file's shorter axes and smaller pictures");
+        command->add_flag("--plan", sweep.plan, "Only say what there is to do, in runs, hours and bytes");
+        command->add_flag("--show-only", sweep.show_only, "Measure nothing; write --report from what is there");
+        command->add_flag("--again", sweep.again, "Measure failed runs again");
+        command->add_flag("--validate", sweep.validate, "Validation layers on; a message fails the run");
+        command->footer(sweep_examples);
+        command = app.add_subcommand("merge", "Results of parts of a sweep in one file");
+        command->add_option("FILE", merge.inputs, "Files that 'gnomon sweep' wrote")->required();
+        command->add_option("-o,--output", merge.output, "The new file")->required();
+        command->add_option("--report", merge.report, "Write a page of curves, DIR/index.html, and DIR/runs.csv")
+            ->type_name("DIR");
     }
 
     void add_render() {
@@ -232,6 +270,10 @@ struct Parser {
         command->add_option("--light", compare.light, "Measure this light only (default: all)");
         command->add_option("--against", compare.against,
                             "Also hold every run against this recipe's visibility: the figures 'against'");
+        command
+            ->add_option("--reference", reference,
+                         "shaded: also hold pictures against light shaded by all of the area; luma_rms and flip of it")
+            ->check(CLI::IsMember({"visibility", "shaded"}));
         path =
             command
                 ->add_option("--path", compare.path,
@@ -331,6 +373,12 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     if (name == "bake") {
         return parser.bake;
     }
+    if (name == "sweep") {
+        return parser.sweep;
+    }
+    if (name == "merge") {
+        return parser.merge;
+    }
     if (name == "render") {
         parse_file(parser.render_file, parser.render.file);
         parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
@@ -340,6 +388,7 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         parse_file(parser.compare_file, parser.compare.file);
         parser.compare.size = parser.compare_size.empty() ? Size{} : parse_size(parser.compare_size);
         parser.compare.command = quoted_command(words);
+        parser.compare.shaded = parser.reference == "shaded";
         parser.compare.follow_path = parser.path->count() > 0;
         if (parser.compare.recipes.empty()) {
             parser.compare.recipes = {"soft", "soft-quality", "pcf", "hard"};

@@ -77,6 +77,7 @@ struct CompareOptions {
     Size size;
     int samples = 256, repeat = 5, threads = 0;
     bool strict = false, validate = false, fresh = false;
+    bool shaded = false;  ///< also hold the pictures against light shaded by all of the area, [EASW09] eq. 1.3
     std::string command;  ///< the command line that asks for the same again
 };
 
@@ -85,9 +86,22 @@ struct BakeOptions {
     std::string folder;
 };
 
+struct SweepOptions {
+    std::string file;                   ///< a shipped sweep's name, or a path
+    std::string output, report, shard;  ///< "" where not asked for
+    int limit = 0, threads = 0;         ///< runs now; 0: all
+    bool quick = false, plan = false, again = false, show_only = false, validate = false;
+};
+
+struct MergeOptions {
+    std::vector<std::string> inputs;
+    std::string output, report;
+};
+
 struct DoctorOptions {};
 
-using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, DoctorOptions>;
+using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, SweepOptions,
+                             MergeOptions, DoctorOptions>;
 
 /// What the command line asks for; nothing when it was answered already (--help, --version).
 /// Throws InputError with one sentence.
@@ -99,6 +113,8 @@ int run(const ShowOptions& options);
 int run(const RenderOptions& options);
 int run(const CompareOptions& options);
 int run(const BakeOptions& options);
+int run(const SweepOptions& options);
+int run(const MergeOptions& options);
 int run(const DoctorOptions& options);
 
 }  // namespace gn

@@ -23,6 +23,7 @@ class Progress {
     /// The part of this step that is done, 0 to 1.
     void within(double fraction);
     void clear();
+    [[nodiscard]] bool terminal() const { return terminal_; }
 
   private:
     void draw();

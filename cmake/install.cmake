@@ -26,7 +26,7 @@ install(FILES ${CMAKE_BINARY_DIR}/gnomon-config.cmake ${CMAKE_BINARY_DIR}/gnomon
         DESTINATION ${gn_config_folder})
 
 # The same shape as the source tree, so that include paths and recipe names mean the same in both.
-install(DIRECTORY recipes scenes base gpu shadow DESTINATION share/gnomon COMPONENT data
+install(DIRECTORY recipes sweeps scenes base gpu shadow DESTINATION share/gnomon COMPONENT data
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.h" PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.frag" PATTERN "*.vert"
         PATTERN "*.geom" PATTERN "*.md")
 install(DIRECTORY apps DESTINATION share/gnomon COMPONENT data

@@ -107,6 +107,7 @@ ResultCache::ResultCache(fs::path folder, bool fresh, const CompareOptions& opti
       repeat_(options.repeat),
       threads_(options.threads),
       validate_(options.validate),
+      shaded_(options.shaded),
       light_(options.light) {
     if (!folder_.empty()) {
         stamp_ = program_stamp(device);
@@ -117,7 +118,7 @@ std::string ResultCache::view_key(const Scene& scene, const std::string& asked, 
                                   const CameraPath* path) const {
     Hasher hasher;
     hasher.text(stamp_).text(asked).text(light_);
-    hasher.value(width_).value(height_).value(samples_).value(repeat_).value(threads_).value(validate_);
+    hasher.value(width_).value(height_).value(samples_).value(repeat_).value(threads_).value(validate_).value(shaded_);
     add_camera(hasher, camera);
     hasher.value(path != nullptr ? path->frames.size() : 0);
     for (const Camera& frame : path != nullptr ? path->frames : std::vector<Camera>{}) {

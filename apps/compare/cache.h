@@ -46,7 +46,7 @@ class ResultCache {
     int width_ = 0, height_ = 0, samples_ = 0, repeat_ = 0, threads_ = 0;
     /// Writes by `body`; where that fails, says once that nothing is kept: it costs a repetition, not the run.
     void keep(const std::function<void()>& body) const;
-    bool validate_ = false;
+    bool validate_ = false, shaded_ = false;
     mutable bool warned_ = false;
     std::string light_, stamp_;
 };

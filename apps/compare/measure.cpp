@@ -50,6 +50,7 @@ std::string command_for(const std::string& scene, const std::string& recipe, con
     }
     command += options.view.empty() ? "" : " --view " + shell_word(options.view);
     command += options.light.empty() ? "" : " --light " + shell_word(options.light);
+    command += options.shaded ? " --reference shaded" : "";
     command += options.against.empty() ? "" : " --against " + shell_word(options.against);
     command += !options.follow_path ? "" : options.path.empty() ? " --path" : " --path " + shell_word(options.path);
     return command + (options.validate ? " --validate" : "") + " -o report";
@@ -210,6 +211,12 @@ void measure_pictures(RunResult& run, ViewSession& view, Bench& bench, const Fra
         all && !colours ? view.reference_picture() : view.picture_of(bench, view.reference_visibility(served, colours));
     run.errors.luma_rms = luma_rms(technique, reference);
     run.errors.flip = flip(technique, reference);
+    if (view.shaded() && !colours) {
+        const Image shaded = view.picture_of(bench, view.shaded_visibility(served));
+        run.shaded_luma_rms = luma_rms(technique, shaded);
+        run.shaded_flip = flip(technique, shaded);
+        names.write("shaded-reference", shaded);
+    }
     run.picture = names.write("picture", technique);
 }
 

@@ -18,22 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts `value` where `text` says `{{name}}`.
-void fill_in(std::string& text, const std::string& name, const std::string& value) {
-    const std::string mark = "{{" + name + "}}";
-    const std::size_t at = text.find(mark);
-    GN_CHECK(at != std::string::npos);
-    text.replace(at, mark.size(), value);
-}
-
-/// JSON that may stand inside a script element: no text in it can end the element.
-std::string for_script_element(std::string json) {
-    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1)) {
-        json.replace(at, 1, "\\u003c");
-    }
-    return json;
-}
-
 /// "ok", or "ok, 2 of 3 lights" when some were refused.
 std::string status_of(const RunResult& run) {
     const auto served =
@@ -48,6 +32,20 @@ std::string milliseconds(std::optional<double> value) {
 }
 
 }  // namespace
+
+void fill_in(std::string& text, const std::string& name, const std::string& value) {
+    const std::string mark = "{{" + name + "}}";
+    const std::size_t at = text.find(mark);
+    GN_CHECK(at != std::string::npos);
+    text.replace(at, mark.size(), value);
+}
+
+std::string for_script_element(std::string json) {
+    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1)) {
+        json.replace(at, 1, "\\u003c");
+    }
+    return json;
+}
 
 void check_report(const fs::path& folder) {
     // The nearest folder that is there decides.

@@ -5,8 +5,14 @@
 #include "apps/compare/result.h"
 
 #include <filesystem>
+#include <string>
 
 namespace gn {
+
+/// Puts `value` where `text` says `{{name}}`.
+void fill_in(std::string& text, const std::string& name, const std::string& value);
+/// JSON that may stand inside a script element: no text in it can end the element.
+std::string for_script_element(std::string json);
 
 /// Throws InputError where DIR could not be made or written to. Touches nothing.
 void check_report(const std::filesystem::path& folder);

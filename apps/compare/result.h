@@ -66,6 +66,8 @@ struct RunResult {
     Status status = Status::ok;
     std::string reason;
     Errors errors;  ///< all served lights pooled, and the pictures
+    /// The picture against light shaded by all of the area, [EASW09] eq. 1.3; absent where that was not asked for.
+    std::optional<double> shaded_luma_rms, shaded_flip;
     std::vector<LightResult> lights;
     Spread shadow, frame;
     std::vector<PassResult> passes;

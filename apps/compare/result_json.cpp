@@ -203,6 +203,9 @@ ordered_json run_json(const RunResult& run, bool for_report) {
                       {"time_ms", times_json(run)},
                       {"memory", memory_json(run)},
                       {"remarks", run.remarks}};
+    if (run.shaded_luma_rms) {
+        json["shaded"] = {{"luma_rms", number(run.shaded_luma_rms)}, {"flip", number(run.shaded_flip)}};
+    }
     if (for_report) {
         add_report_fields(json, run);
     }
@@ -223,6 +226,10 @@ RunResult run_from_json(const ordered_json& json) {
     // The figures.
     run.errors = errors_from(json.at("error"), json.at("samples"));
     run.errors.weighted = weighted_from(json.at("weighted"));
+    if (json.contains("shaded")) {
+        run.shaded_luma_rms = optional_number(json.at("shaded").at("luma_rms"));
+        run.shaded_flip = optional_number(json.at("shaded").at("flip"));
+    }
     for (const ordered_json& light : json.at("lights")) {
         run.lights.push_back({light.at("name"), status_from(light.at("status")), light.at("reason"),
                               errors_from(light.at("error"), light.at("samples")), light.at("error_map")});

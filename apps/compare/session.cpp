@@ -3,6 +3,7 @@
 
 #include "apps/choose.h"
 #include "apps/output.h"
+#include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
 
 #include <algorithm>
@@ -207,6 +208,37 @@ std::vector<Image> ViewSession::reference_visibility(const std::vector<bool>& se
         const bool coloured = colours && l < colour_truth_.size() && colour_truth_[l];
         const std::optional<TruthResult>& truth = coloured ? colour_truth_[l] : truth_[l];
         images.push_back(served[l] && truth ? as_image(truth->visibility, options_.size) : Image{});
+    }
+    return images;
+}
+
+std::vector<Image> ViewSession::shaded_visibility(const std::vector<bool>& served) {
+    shaded_.resize(truth_.size());
+    std::vector<Image> images(truth_.size());
+    for (std::size_t l = 0; l < truth_.size(); ++l) {
+        if (!served[l] || !wanted(l)) {
+            continue;
+        }
+        if (!shaded_[l]) {
+            const Light& light = scene_->lights[l];
+            const TruthResult truth = tracer().trace(
+                samples_.position_ws, samples_.normal_ws, light,
+                {.samples = options_.samples, .threads = options_.threads, .stop = stop_requested, .integral = true});
+            if (!truth.complete) {
+                throw Stopped();
+            }
+            // The range's window is the shading's own, and not in the integral.
+            GnLight unlimited = light.shape;
+            unlimited.range = 0;
+            const std::vector<float> centre = unshadowed_illuminance(samples_, unlimited);
+            std::vector<float> share(centre.size(), 0.0F);
+            for (std::size_t i = 0; i < share.size(); ++i) {
+                // Where the centre gives nothing its share has no meaning: a grazing sample that does not count.
+                share[i] = centre[i] > 0 ? truth.irradiance[i] / centre[i] : 0.0F;
+            }
+            shaded_[l] = as_image(share, options_.size);
+        }
+        images[l] = *shaded_[l];
     }
     return images;
 }

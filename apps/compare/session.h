@@ -56,6 +56,13 @@ class ViewSession {
     /// of `served` are empty.
     [[nodiscard]] std::vector<Image> reference_visibility(const std::vector<bool>& served, bool colours = false) const;
 
+    /// Whether light shaded by all of the area was asked for.
+    [[nodiscard]] bool shaded() const { return options_.shaded; }
+    /// What takes V's place so that the shading's light of the centre becomes that of all of the area: [EASW09] eq. 1.3 over the
+    /// light of the unshadowed centre, one a light; lights that are left out of `served` are empty. Highlights stay those of the
+    /// centre. Traced when first asked for. Throws Stopped.
+    [[nodiscard]] std::vector<Image> shaded_visibility(const std::vector<bool>& served);
+
     /// The frame of the recipe that others are held against, or null when there is none. Drawn when first asked for.
     /// Throws Error.
     const FrameResult* against(Bench& bench);
@@ -104,6 +111,7 @@ class ViewSession {
     CpuSamples samples_;
     std::optional<Truth> tracer_;
     std::vector<std::optional<TruthResult>> truth_, colour_truth_;
+    std::vector<std::optional<Image>> shaded_;  ///< per light, of shaded_visibility
     const CameraPath* path_ = nullptr;
     std::vector<std::vector<PathTruth>> path_truth_;  ///< per frame and light
     double path_seconds_ = 0;
