@@ -30,6 +30,7 @@ constexpr const char* examples = R"(Examples:
   gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
   gnomon bake pcf,placement=cascades -o baked      its shaders, for renderers that link no compiler
   gnomon sweep sambeek-quality --quick             a grid of runs, into a file that grows and resumes
+  gnomon study prepare DIR --kind threshold        then: gnomon study serve DIR; studies with people, in a browser
   gnomon doctor                                    what this machine's driver can do
 
 SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
@@ -76,6 +77,17 @@ constexpr const char* sweep_examples = R"(Examples:
 
 Each finished run is on the disk before the next begins: the same command again goes on where it ended, however that was.
 Shipped: kreuzer-resolution, lauritzen, sambeek-memory, sambeek-performance, sambeek-quality. docs/sweep.md has the format.)";
+
+constexpr const char* study_examples = R"(Examples:
+  gnomon study prepare survey                                  draws the pictures of sambeek-quality, the reference with them
+  gnomon study prepare limits --kind threshold
+  gnomon study serve survey --port 8080                        prints the participants' address and the administrator's
+  gnomon study serve survey --host 0.0.0.0 --name lab.example  open to others, called by that name
+  gnomon study analyse survey --json results.json              mean ranks, tests and subsets; or thresholds and their fit
+  gnomon study export survey -o answers.csv
+
+survey: how realistic are shadows, in ranks of 1 to 9 where 9 is the best? threshold: how wide a filter hides the texels of a
+shadow map, by QUEST? Every answer is on the disk before it is acknowledged; sessions go on after a crash. docs/study.md.)";
 
 Size parse_size(const std::string& text) {
     Size size{0, 0};
@@ -165,6 +177,7 @@ struct Parser {
     BakeOptions bake;
     SweepOptions sweep;
     MergeOptions merge;
+    StudyOptions study;
     std::string reference;
     std::string render_size, compare_size;
     FileWords render_file, compare_file;
@@ -182,6 +195,7 @@ struct Parser {
         add_compare();
         add_bake();
         add_sweep();
+        add_study();
         app.add_subcommand("doctor", "What this machine's driver can do, and what that rules out");
         for (CLI::App* command : app.get_subcommands({})) {
             command->fallthrough();
@@ -231,6 +245,31 @@ struct Parser {
         command->add_option("-o,--output", merge.output, "The new file")->required();
         command->add_option("--report", merge.report, "Write a page of curves, DIR/index.html, and DIR/runs.csv")
             ->type_name("DIR");
+    }
+
+    void add_study() {
+        CLI::App* command =
+            app.add_subcommand("study", "Studies with people: realism of shadows, and thresholds of filters");
+        command->add_option("ACTION", study.action, "prepare, serve, analyse or export")
+            ->required()
+            ->check(CLI::IsMember({"prepare", "serve", "analyse", "export"}));
+        command->add_option("DIR", study.folder, "The study's folder")->required();
+        command->add_option("--kind", study.kind, "prepare: survey or threshold (default: survey)")
+            ->check(CLI::IsMember({"survey", "threshold"}));
+        command->add_option("--sweep", study.sweep,
+                            "prepare: the sweep whose views are pages and whose recipes are pictures "
+                            "(default: sambeek-quality)");
+        command->add_flag("--quick", study.quick, "prepare: the sweep's quick version");
+        command->add_option("--host", study.host,
+                            "serve: the address to listen on (default: 127.0.0.1, this machine only)");
+        command->add_option("--port", study.port, "serve: 0 is any that is free (default: 8080)")
+            ->check(CLI::Range(0, 65535));
+        command
+            ->add_option("--name", study.names, "serve: a name by which other machines call this one; may be repeated")
+            ->allow_extra_args(false);
+        command->add_option("--json", study.json, "analyse: write the results as JSON; - is standard output");
+        command->add_option("-o,--output", study.output, "export: the file to write (default: standard output)");
+        command->footer(study_examples);
     }
 
     void add_render() {
@@ -375,6 +414,9 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     }
     if (name == "sweep") {
         return parser.sweep;
+    }
+    if (name == "study") {
+        return parser.study;
     }
     if (name == "merge") {
         return parser.merge;

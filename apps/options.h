@@ -98,10 +98,19 @@ struct MergeOptions {
     std::string output, report;
 };
 
+struct StudyOptions {
+    std::string action;  ///< prepare, serve, analyse, export
+    std::string folder, kind = "survey", sweep = "sambeek-quality";
+    std::string host = "127.0.0.1", output, json;
+    std::vector<std::string> names;  ///< by which a server that is open to others may be called
+    int port = 8080;                 ///< 0: any that is free
+    bool quick = false;
+};
+
 struct DoctorOptions {};
 
 using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, SweepOptions,
-                             MergeOptions, DoctorOptions>;
+                             MergeOptions, StudyOptions, DoctorOptions>;
 
 /// What the command line asks for; nothing when it was answered already (--help, --version).
 /// Throws InputError with one sentence.
@@ -115,6 +124,7 @@ int run(const CompareOptions& options);
 int run(const BakeOptions& options);
 int run(const SweepOptions& options);
 int run(const MergeOptions& options);
+int run(const StudyOptions& options);
 int run(const DoctorOptions& options);
 
 }  // namespace gn

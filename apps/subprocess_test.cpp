@@ -59,6 +59,10 @@ bool RunningCommand::finished() {
     return finished_;
 }
 
+std::string RunningCommand::said() const {
+    return file_text(folder_ / "out");
+}
+
 CommandResult RunningCommand::wait(int seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
     while (!finished()) {

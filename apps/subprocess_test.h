@@ -35,6 +35,8 @@ class RunningCommand {
     explicit RunningCommand(const std::vector<std::string>& arguments);
     void signal(int number) const;
     [[nodiscard]] bool finished();
+    /// What it has written on standard output so far.
+    [[nodiscard]] std::string said() const;
     /// Waits; after `seconds` the command is killed and its status is 128 + SIGKILL.
     CommandResult wait(int seconds = 300);
 

@@ -95,7 +95,7 @@ gn_suite(evaluation_tests SOURCES ${evaluation_tests} LINK gn_evaluation TESTED 
 # The command is tested from outside, so that the suite of one build tests the commands of all (tools/run_tests).
 file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
 list(REMOVE_ITEM app_tests ${evaluation_tests})
-gn_suite(app_tests SOURCES ${app_tests} LINK gn_images gn_evaluation TESTED optimised)
+gn_suite(app_tests SOURCES ${app_tests} LINK gn_images gn_evaluation PkgConfig::HTTPLIB TESTED optimised)
 add_dependencies(app_tests gnomon)
 add_dependencies(tested gnomon)
 target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>" GNOMON_SOURCE="${CMAKE_SOURCE_DIR}")
