@@ -78,6 +78,11 @@ int serve_study(const StudyOptions& options) {
     httplib::Server server;
     server.new_task_queue = [] { return new httplib::ThreadPool(most_threads); };
     server.set_payload_max_length(most_body_bytes);
+    // A port that another server listens on is taken: sharing it, as the library would, sends each of them half of the answers.
+    server.set_socket_options([](socket_t socket) {
+        const int yes = 1;
+        setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     server.set_read_timeout(request_seconds);
     server.set_write_timeout(request_seconds);
     server.set_keep_alive_timeout(2);
@@ -112,6 +117,9 @@ int serve_study(const StudyOptions& options) {
     fmt::print("participants:   {}/\nadministrator:  {}/admin?key={}\n", address, address, key);
     if (options.host != "127.0.0.1" && options.host != "localhost" && options.host != "::1") {
         fmt::print("This address is open to other machines, without encryption; put a proxy with TLS before it.\n");
+        fmt::print("Others may call it {}.\n", options.names.empty()
+                                                   ? "by no name yet: --name gives one"
+                                                   : fmt::format("{}", fmt::join(options.names, ", ")));
     }
     std::fflush(stdout);
     watch_signals();

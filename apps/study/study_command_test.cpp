@@ -87,6 +87,10 @@ TEST(StudyCommand, ServesAThresholdStudyThroughAKillAndExportsIt) {
     server.get("/api/admin?key=wrong", 403);
     expect_has(server.get("/admin?key=" + server.key_), {"administrator"});
     EXPECT_EQ(json::parse(server.get("/api/admin?key=" + server.key_)).at("people").at(0).at("answers"), 5);
+    // A second server does not share its port.
+    const CommandResult second = run_gnomon({"study", "serve", folder, "--port", std::to_string(server.port_)});
+    EXPECT_EQ(second.status, 2) << second.out;
+    expect_has(second.err, {"--port", "cannot be listened on"});
     // It asks browsers to let nobody else in.
     const auto page = server.client_->Get("/");
     EXPECT_NE(page->get_header_value("Content-Security-Policy").find("default-src 'none'"), std::string::npos);
