@@ -17,6 +17,7 @@
 #include "reference/occluders.h"
 #include "reference/rays.h"
 #include "reference/rims.h"
+#include "shadow/scene/emission.h"
 
 #include <algorithm>
 #include <atomic>
@@ -67,6 +68,21 @@ struct Plan {
 struct Estimate {
     dvec3 visibility{0};  ///< of red, green and blue; all alike where nothing tints
     double standard_error = 0, irradiance = 0;
+};
+
+/// What a rectangle that shows a picture (shadow/scene/emission.h) sends from its points, in its own colours: V of three channels
+/// are shares of it. 1 everywhere of a light that shows none.
+struct Sent {
+    const Image8* picture = nullptr;
+    const GnLight& light;
+    bvec3 dark{false};  ///< channels of which it sends nothing at all: their points count alike
+
+    /// From the point of the unit square that a sampler takes.
+    [[nodiscard]] vec3 from(vec2 u) const {
+        return picture == nullptr
+                   ? vec3(1)
+                   : mix(emission_at(*picture, gn_emission_place(light, 2.0F * u - 1.0F)), vec3(1), dark);
+    }
 };
 
 /// What a traced ray brings of its light.
@@ -128,10 +144,26 @@ Estimate combine(std::span<const dvec3> visible, const Plan& plan) {
     return estimate;
 }
 
+/// What is seen of each batch, as counts whose mean is what is seen of all over what all send; they scatter as that ratio does, to first order.
+void divide_by_sent(std::span<dvec3> visible, std::span<const dvec3> sent, const Plan& plan) {
+    dvec3 all_visible(0), all_sent(0);
+    for (std::size_t b = 0; b < visible.size(); ++b) {
+        all_visible += visible[b];
+        all_sent += sent[b];
+    }
+    const dvec3 share = all_visible / max(all_sent, dvec3(1e-30));
+    const dvec3 mean_sent = max(all_sent / static_cast<double>(visible.size()), dvec3(1e-30));
+    for (std::size_t b = 0; b < visible.size(); ++b) {
+        visible[b] = (share + (visible[b] - share * sent[b]) / mean_sent) * static_cast<double>(plan.per_batch);
+    }
+}
+
 template <int Width>
 Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const Plan& plan, std::size_t view_sample,
-                    const Seat& seat, const LightSampler& sampler, vec3 n_ws, bool integral) {
+                    const Seat& seat, const LightSampler& sampler, vec3 n_ws, bool integral, const Sent& sent) {
     Packet<Width> packet;
+    std::array<vec3, Width> sent_of{};
+    std::array<dvec3, most_batches> sent_by{};
     alignas(4 * Width) std::array<int, Width> valid{};
     std::array<std::uint32_t, Width> batch_of{};
     std::array<float, Width> weight{};
@@ -147,7 +179,7 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
         for (int i = 0; i < lane; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (packet.rays.tfar[i] >= 0.0F) {
-                visible[batch_of[k]] += dvec3(packet.tint[k]);
+                visible[batch_of[k]] += dvec3(packet.tint[k] * sent_of[k]);
                 irradiance += static_cast<double>(weight[k]);
             }
         }
@@ -158,8 +190,11 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
     for (std::uint32_t batch = 0; batch < plan.batches; ++batch) {
         const sobol::Seeds seeds = plan.seeds(view_sample, batch);
         for (std::uint32_t i = 0; i < plan.per_batch; ++i) {
-            const LightPoint point = sampler.at(plan.point(seeds, i));
+            const vec2 u = plan.point(seeds, i);
+            const LightPoint point = sampler.at(u);
             aim(packet, lane, seat.origin_ws, point);
+            sent_of[static_cast<std::size_t>(lane)] = sent.from(u);
+            sent_by[batch] += dvec3(sent_of[static_cast<std::size_t>(lane)]);
             batch_of[static_cast<std::size_t>(lane)] = batch;
             weight[static_cast<std::size_t>(lane)] = integral ? sampler.irradiance(point, n_ws) : 0.0F;
             if (++lane == Width) {
@@ -169,6 +204,9 @@ Estimate trace_area(const Occluders& occluders, const Blockers& blockers, const 
     }
     if (lane > 0) {
         flush();
+    }
+    if (sent.picture != nullptr) {
+        divide_by_sent(std::span(visible).first(plan.batches), std::span(sent_by).first(plan.batches), plan);
     }
     Estimate estimate = combine(std::span(visible).first(plan.batches), plan);
     estimate.irradiance = irradiance / (static_cast<double>(plan.batches) * plan.per_batch);
@@ -184,6 +222,7 @@ struct Job {
     const TruthOptions& options;
     TruthResult& result;
     Blockers blockers, nothing;
+    Sent sent;
     std::atomic<std::size_t> next_tile = 0, done = 0;
     std::atomic<bool> stop = false;
 
@@ -219,9 +258,9 @@ struct Job {
             return trace_single(occluders, by, seat, sampler, n_ws);
         }
         switch (occluders.width()) {
-            case 16: return trace_area<16>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
-            case 8: return trace_area<8>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
-            default: return trace_area<4>(occluders, by, plan, i, seat, sampler, n_ws, options.integral);
+            case 16: return trace_area<16>(occluders, by, plan, i, seat, sampler, n_ws, options.integral, sent);
+            case 8: return trace_area<8>(occluders, by, plan, i, seat, sampler, n_ws, options.integral, sent);
+            default: return trace_area<4>(occluders, by, plan, i, seat, sampler, n_ws, options.integral, sent);
         }
     }
 
@@ -253,9 +292,17 @@ struct Job {
 
 struct Truth::Impl {
     Occluders occluders;
+    const Scene& scene;
+
+    /// Of three channels each has its own weights; one is the share of the light's area.
+    [[nodiscard]] Sent sent(const Light& light, const TruthOptions& options) const {
+        const bool weighted = options.channels == 3 && options.exactly == nullptr;
+        const Image8* const picture = weighted ? shown_picture(scene, light.shape) : nullptr;
+        return {picture, light.shape, picture != nullptr ? equal(mean_emission(*picture), vec3(0)) : bvec3(false)};
+    }
 };
 
-Truth::Truth(const Scene& scene) : impl_(new Impl{Occluders(scene)}) {}
+Truth::Truth(const Scene& scene) : impl_(new Impl{Occluders(scene), scene}) {}
 Truth::~Truth() = default;
 
 TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4> normal_ws, const Light& light,
@@ -278,7 +325,8 @@ TruthResult Truth::trace(std::span<const vec4> position_ws, std::span<const vec4
             options,
             result,
             occluders.blockers(&light, options.channels == 3),
-            occluders.no_blockers()};
+            occluders.no_blockers(),
+            impl_->sent(light, options)};
     in_parallel(
         options.threads, [&](bool first) { job.work(first ? progress : std::function<void(double)>{}); },
         [&] { job.stop = true; });

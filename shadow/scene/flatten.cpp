@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From instances in double precision to one flat scene of floats in world space.
 #include "base/error.h"
+#include "shadow/scene/emission.h"
 #include "shadow/scene/main_mass.h"
 #include "shadow/scene/model.h"
 
@@ -248,6 +249,8 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model) {
     // Move what stands in the world.
     for (PlacedLight& light : part.lights) {
         light.light.cookie += light.light.cookie >= 0 ? first_texture : 0;
+        const int emission = gn_emission_texture(light.light.shape);
+        set_emission(light.light.shape, emission + (emission >= 0 ? first_texture : 0));
         move_light(light, ws_from_model);
     }
     for (PlacedCamera& camera : part.cameras) {

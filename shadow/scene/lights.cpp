@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lights: repaired where their values make no sense, named apart, and a sun where there is none.
 #include "base/error.h"
+#include "shadow/scene/emission.h"
 #include "shadow/scene/model.h"
 
 #include <algorithm>
@@ -129,6 +130,7 @@ void complete_lights(Scene& scene) {
         }
         taken.insert(light.name);
         repair_light(light, scene.notes);
+        complete_emission(scene, light);
     }
 }
 

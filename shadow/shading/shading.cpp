@@ -5,6 +5,7 @@
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
+#include "shadow/scene/emission.h"
 
 #include <algorithm>
 
@@ -120,7 +121,12 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
         inputs.constant("GnLight", "environment", sky.shape).constant("GnSky", "sky", sky.sky);
     }
     for (std::size_t i = 0; i < pass.lights.size(); ++i) {
-        inputs.constant("GnLight", fmt::format("light{}", i), pass.lights[i].shape);
+        GnLight shape = pass.lights[i].shape;
+        if (const Image8* const picture = shown_picture(input.scene, shape)) {
+            const auto texture = static_cast<std::uint64_t>(gn_emission_texture(shape));
+            shape.color *= vec4(*input.derive("mean emission", texture, [&] { return mean_emission(*picture); }), 1.0F);
+        }
+        inputs.constant("GnLight", fmt::format("light{}", i), shape);
         add_visibility(inputs, input, i, pass.visibility[i]);
         if (pass.lights[i].cookie >= 0) {
             const auto cookie = static_cast<std::size_t>(pass.lights[i].cookie);

@@ -4,14 +4,19 @@
 // Based on: Guennebaud, Barthe, Paulin. Real-time Soft Shadow Mapping by Backprojection. EGSR 2006. [GBP06]
 //
 // Also here: area.glsl, bitmask.glsl, contours.glsl, cover.glsl, light_plane.glsl, patches.glsl, quads.glsl, search.glsl.
-// Also here: texels.glsl, sparse.h, sparse.cpp, sparse.glsl.
+// Also here: texels.glsl, sparse.h, sparse.cpp, sparse.glsl, emission.h, emission.cpp, emission.glsl,
+// Also here: emission_test.cpp, packets.h, packets.cpp, packets.glsl,
+// Also here: packet_pass.glsl, packets_test.cpp.
 #include "shadow/lookup/backprojection/backprojection.h"
+#include "shadow/lookup/backprojection/emission.h"
 #include "shadow/lookup/backprojection/light_plane.glsl"
+#include "shadow/lookup/backprojection/packets.h"
 #include "shadow/lookup/backprojection/sparse.h"
 
 #include "shadow/frame/frame.h"
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
+#include "shadow/scene/emission.h"
 
 #include <array>
 #include <cmath>
@@ -61,6 +66,16 @@ std::string footprint_prologue(const Recipe& recipe) {
     return prologue(recipe) + "#define GN_BACK_FOOTPRINT\n";
 }
 
+std::string emission_prologue(const Recipe& recipe) {
+    return prologue(recipe) + "#define GN_BACK_EMISSION\n";
+}
+
+std::vector<std::string_view> needs_emission(const Recipe& recipe) {
+    std::vector<std::string_view> needs = needs_for(recipe);
+    needs.emplace_back("emission");
+    return needs;
+}
+
 /// The part as the shared resolve pass runs it.
 Part pass_of(const Part& part, std::string (*with)(const Recipe&)) {
     Part pass = part;
@@ -69,12 +84,34 @@ Part pass_of(const Part& part, std::string (*with)(const Recipe&)) {
     return pass;
 }
 
+/// V with three channels: of what the light's picture sends in each colour the share that arrives.
+Visibility add_coloured(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
+    static const Part coloured = [&] {
+        Part pass = pass_of(*recipe.lookup, emission_prologue);
+        pass.needs_for = needs_emission;
+        pass.channels = 3;
+        return pass;
+    }();
+    ShadowMap with_emission = map;
+    with_emission.offers.push_back({"emission", add_emission(input), nearest()});
+    Recipe told = recipe;
+    told.lookup = &coloured;
+    return add_resolve(input, told, views, with_emission);
+}
+
 Visibility add_lookup(const FrameInput& input, const Recipe& recipe, const LightViews& views, const ShadowMap& map) {
     static const Part footprint = pass_of(*recipe.lookup, footprint_prologue);
     static const Part lookup = pass_of(*recipe.lookup, prologue);
     // What is told beside V, and objects, are of every sample; a light without size has no penumbrae.
     const auto params = recipe.of<GnBackprojectionParams>("backprojection");
     const bool sized = glsl::gn_back_has_size(input.light().shape) || params.least > 0;
+    if (shows_picture(input) && params.combine == GN_BACK_BITMASK) {
+        return add_coloured(input, recipe, views, map);
+    }
+    if (params.packet > 1 && params.occluder == GN_BACK_CONTOUR && params.layers == 1 && params.sparse == 0 &&
+        params.least == 0 && sized && input.sides.empty() && recipe.casters != Casters::ids) {
+        return add_packets(input, recipe, views, map, needs_for(recipe), prologue(recipe));
+    }
     if (params.sparse == 0 || !sized || !input.sides.empty() || recipe.casters == Casters::ids) {
         return add_resolve(input, recipe, views, map);
     }
@@ -93,6 +130,13 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
     if (params.layers > 1 && params.fusion == GN_BACK_UNION && params.combine == GN_BACK_AREA) {
         return "areas of several layers cannot be united; backprojection.fusion=sum adds them, "
                "backprojection.combine=bitmask unites them";
+    }
+    const bool united = params.layers == 1 || params.fusion == GN_BACK_UNION || params.fusion == GN_BACK_FARTHEST;
+    if (gn_emission_texture(light.shape) >= 0 && params.combine == GN_BACK_BITMASK && !united) {
+        return fmt::format(
+            "shares of several layers do not say which part of the picture of light '{}' they hide; "
+            "backprojection.fusion=union or farthest does",
+            light.name);
     }
     if (params.pyramid == GN_BACK_MSSM && recipe.resolution > 1024) {
         return fmt::format(
@@ -155,6 +199,12 @@ ParamTable rows() {
                  "steps and patterns where the guess of the width is wrong; 0 looks up all."),
         GN_PARAM(GnBackprojectionParams, sparse_samples, real, 1, 64, "",
                  "Samples across a penumbra, along a row of the picture, that are kept with `sparse`."),
+        GN_PARAM(
+            GnBackprojectionParams, packet, integer, 1, 2, "pixels",
+            "Side of the squares of pixels that search the map together and find outlines (`contour`) together where "
+            "all "
+            "find the same: fewer fetches, less that runs side by side. Rests with other occluders, with `layers`, "
+            "`sparse` and `least`."),
     });
 }
 

@@ -7,6 +7,7 @@
 #define GN_SHADOW_LOOKUP_BACKPROJECTION_GLSL
 
 #include "shadow/lookup/backprojection/contours.glsl"
+#include "shadow/lookup/backprojection/emission.glsl"
 #include "shadow/lookup/backprojection/patches.glsl"
 #include "shadow/lookup/backprojection/quads.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
@@ -25,6 +26,9 @@ float gn_back_hard(GnLookup at, sampler2DArray depth) {
     vec2 centre_ts = (vec2(texel) + 0.5) * at.projected.texel_ts;
     return gn_depth_at(at.projected, centre_ts, at.bias) <= gn_map_texel(depth, at, texel).r ? 1.0 : 0.0;
 }
+
+// Of a light that shows a picture:
+//   #define GN_BACK_EMISSION
 
 // How the light is read: the level, and which of the peeled surfaces.
 struct GnBackTurn {
@@ -81,31 +85,59 @@ GnBackCover gn_back_in_others(GnBackCover cover, GnLookup at, GN_BACK_MAPS, GnBa
 }
 #endif
 
-// The share of the light that is hidden, of what is read in one turn and all others that are united with it.
-float gn_back_turn(inout GnBackCover cover, GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSearch search, GnBackTurn turn,
-                   GnBackprojectionParams params) {
+// What is hidden of the light, of what is read in one turn and all others that are united with it.
+GnBackCover gn_back_turn(GnBackCover cover, GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSearch search, GnBackTurn turn,
+                         GnBackprojectionParams params) {
     cover = gn_back_in_view(cover, at, GN_BACK_THESE, light, search, turn, params);
 #ifdef GN_CROSSING
     if (!search.whole) {
         cover = gn_back_in_others(cover, at, GN_BACK_THESE, light, search, turn, params);
     }
 #endif
-    return gn_back_hidden(cover, GN_BACK_COMBINE == GN_BACK_BITMASK, light.disc);
+    return cover;
 }
 
-// Of all peeled surfaces, fused.
+#ifdef GN_BACK_EMISSION
+// Of what the light sends in each colour the share that is hidden, by all peeled surfaces together.
+#define GN_BACK_SHARE vec3
+vec3 gn_back_hidden_at(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSearch search, int level,
+                       GnBackprojectionParams params) {
+    int turns = GN_BACK_FUSION == GN_BACK_FARTHEST ? 1 : GN_BACK_LAYERS;
+    GnBackCover cover = gn_back_nothing();
+    for (int i = 0; i < turns; ++i) {
+        cover = gn_back_turn(cover, at, GN_BACK_THESE, light, search, GnBackTurn(level, i), params);
+    }
+    return gn_back_unsent(cover.mask, sent);
+}
+#else
+// The share of the light that is hidden, by all peeled surfaces, fused.
+#define GN_BACK_SHARE float
 float gn_back_hidden_at(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSearch search, int level,
                         GnBackprojectionParams params) {
     int turns = GN_BACK_FUSION == GN_BACK_FARTHEST ? 1 : GN_BACK_LAYERS;
     GnBackCover cover = gn_back_nothing();
     GnBackFused fused = gn_back_unfused();
     for (int i = 0; i < turns; ++i) {
-        fused = gn_back_fuse(fused, gn_back_turn(cover, at, GN_BACK_THESE, light, search, GnBackTurn(level, i), params));
+        cover = gn_back_turn(cover, at, GN_BACK_THESE, light, search, GnBackTurn(level, i), params);
+        fused = gn_back_fuse(fused, gn_back_hidden(cover, GN_BACK_COMBINE == GN_BACK_BITMASK, light.disc));
         if (GN_BACK_FUSION != GN_BACK_UNION) {
             cover = gn_back_nothing();
         }
     }
     return gn_back_fused(fused, GN_BACK_FUSION);
+}
+#endif
+
+// What is seen of the light after a search: of one level, or of two that are blended.
+GN_BACK_SHARE gn_back_searched(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSearch search, GnBackprojectionParams params) {
+    float coarseness = gn_back_coarseness(search, params);
+    int level = int(params.blend != 0 ? floor(coarseness) : ceil(coarseness));
+    float between = coarseness - float(level);
+    GN_BACK_SHARE hidden = GN_BACK_SHARE(0.0);
+    for (int end = 0; end <= (between > 0.0 ? 1 : 0); ++end) {
+        hidden = mix(hidden, gn_back_hidden_at(at, GN_BACK_THESE, light, search, level + end, params), end == 0 ? 1.0 : between);
+    }
+    return 1.0 - hidden;
 }
 
 GnBackSearch gn_back_search_of(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackprojectionParams params) {
@@ -126,20 +158,12 @@ float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionPa
     return gn_back_told(search.visibility, gn_back_apart(pixels, params));
 }
 #else
-float gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionParams params) {
+GN_BACK_SHARE gn_backprojection_visibility(GnLookup at, GN_BACK_MAPS, GnBackprojectionParams params) {
     if (!gn_back_has_size(at.light) && params.least == 0.0) {
-        return gn_back_hard(at, depth);
+        return GN_BACK_SHARE(gn_back_hard(at, depth));
     }
     GnBackLight light = gn_back_light(at.light, at.receiver.p_ws);
-    GnBackSearch search = gn_back_search_of(at, GN_BACK_THESE, light, params);
-    float coarseness = gn_back_coarseness(search, params);
-    int level = int(params.blend != 0 ? floor(coarseness) : ceil(coarseness));
-    float between = coarseness - float(level);
-    float hidden = 0.0;
-    for (int end = 0; end <= (between > 0.0 ? 1 : 0); ++end) {
-        hidden = mix(hidden, gn_back_hidden_at(at, GN_BACK_THESE, light, search, level + end, params), end == 0 ? 1.0 : between);
-    }
-    return 1.0 - hidden;
+    return gn_back_searched(at, GN_BACK_THESE, light, gn_back_search_of(at, GN_BACK_THESE, light, params), params);
 }
 #endif
 

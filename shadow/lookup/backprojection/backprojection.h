@@ -43,6 +43,7 @@ struct GnBackprojectionParams {
     int fusion GN_DEFAULT(GN_BACK_UNION);
     int sparse GN_DEFAULT(0);
     float sparse_samples GN_DEFAULT(8.0f);
+    int packet GN_DEFAULT(1);
 };
 
 #endif

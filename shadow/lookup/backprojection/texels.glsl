@@ -33,8 +33,16 @@
 
 // The textures that the lookup reads: the map, a pyramid and squares of least and greatest depths, and peeled surfaces. What a
 // recipe does not ask for is the map again, and is not read.
+// Of a light that shows a picture also what each of its points sends (emission.glsl):
+//   #define GN_BACK_EMISSION
+#ifdef GN_BACK_EMISSION
+#define GN_BACK_MAPS \
+    sampler2DArray depth, sampler2DArray pyramid, sampler2DArray squares, sampler2DArray peeled, sampler2DArray sent
+#define GN_BACK_THESE depth, pyramid, squares, peeled, sent
+#else
 #define GN_BACK_MAPS sampler2DArray depth, sampler2DArray pyramid, sampler2DArray squares, sampler2DArray peeled
 #define GN_BACK_THESE depth, pyramid, squares, peeled
+#endif
 
 struct GnBackTexel {
     vec2 seen;    // where its centre is seen before the light

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // .toml scenes: files, lights, cameras and camera paths placed by hand. docs/scenes.md has the keys.
 #include "shadow/scene/cookie.h"
+#include "shadow/scene/emission.h"
 #include "shadow/scene/files/given_sky.h"
 #include "shadow/scene/files/toml_table.h"
 #include "shadow/scene/files/upright.h"
@@ -157,11 +158,27 @@ int add_cookie(const TomlTable& table, const GnLight& shape, const Folder& folde
     return static_cast<int>(model.textures.size()) - 1;
 }
 
+// The picture that a rectangle shows, likewise.
+int add_emission(const TomlTable& table, const GnLight& shape, const Folder& folder, Model& model) {
+    if (!table.has("texture")) {
+        return -1;
+    }
+    if (!gn_takes_emission(shape)) {
+        fail("{}: key 'texture' is of rectangles; {} has none", table.where(), light_kind_names.at(shape.kind));
+    }
+    const std::string name = table.text("texture", "");
+    model.textures.push_back({.name = clean_text(name),
+                              .image = decode_image(read_file(folder.resolve(name)), clean_text(name)),
+                              .repeat_u = false,
+                              .repeat_v = false});
+    return static_cast<int>(model.textures.size()) - 1;
+}
+
 void add_light(const TomlTable& table, const Folder& folder, Model& model) {
-    static constexpr std::array<std::string_view, 15> keys{
-        "kind", "name",      "position",  "direction", "look_at",
-        "up",   "color",     "intensity", "radius",    "angular_radius_deg",
-        "size", "inner_deg", "outer_deg", "range",     "cookie"};
+    static constexpr std::array<std::string_view, 16> keys{
+        "kind",      "name",   "position",           "direction", "look_at",   "up",        "color",
+        "intensity", "radius", "angular_radius_deg", "size",      "inner_deg", "outer_deg", "range",
+        "cookie",    "texture"};
     table.check_keys(keys);
     PlacedLight placed;
     GnLight& shape = placed.light.shape;
@@ -200,6 +217,7 @@ void add_light(const TomlTable& table, const Folder& folder, Model& model) {
     shape.cos_outer = static_cast<float>(std::cos(glm::radians(outer)));
     shape.cos_inner = static_cast<float>(std::cos(glm::radians(not_negative(table, "inner_deg", 0.8 * outer))));
     placed.light.cookie = add_cookie(table, shape, folder, model);
+    set_emission(shape, add_emission(table, shape, folder, model));
     model.lights.push_back(std::move(placed));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shadow/scene/emission.h"
 #include "shadow/scene/testing.h"
 
 namespace gn {
@@ -83,6 +84,34 @@ TEST(Toml, ALightsCookieIsATextureOfItsOwn) {
     EXPECT_NE(mistake("[[light]]\nkind = \"directional\"\ncookie = \"leaf.png\"\n").find("is of spots"),
               std::string::npos);
     EXPECT_NE(mistake("[[light]]\nkind = \"spot\"\ncookie = \"leaf.png\"\n").find("leaf.png"), std::string::npos);
+}
+
+TEST(Toml, ARectangleShowsAPicture) {
+    const TempFolder folder;
+    const auto mistake = [&](const std::string& text) {
+        try {
+            static_cast<void>(load_scene(folder.write("t.toml", text)));
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(mistake("[[light]]\nkind = \"spot\"\ntexture = \"panel.png\"\n").find("is of rectangles"),
+              std::string::npos);
+    EXPECT_NE(mistake("[[light]]\nkind = \"rectangle\"\nsize = [1, 1]\ntexture = \"panel.png\"\n").find("panel.png"),
+              std::string::npos);
+
+    Image panel(2, 1, 3, 0);
+    panel.at(1, 0, 2) = 1;  // black, and blue on the right
+    write_png(folder.path() / "panel.png", panel);
+    const Scene scene = load_scene(folder.write(
+        "good.toml",
+        "[[light]]\nkind = \"rectangle\"\nsize = [1, 1]\ntexture = \"panel.png\"\n[[light]]\nkind = \"point\"\n"));
+    const Image8* const picture = shown_picture(scene, scene.lights[0].shape);
+    ASSERT_NE(picture, nullptr);
+    EXPECT_EQ(mean_emission(*picture), vec3(0, 0, 0.5F));
+    EXPECT_EQ(emission_at(*picture, vec2(0.9F, 0.5F)), vec3(0, 0, 1));
+    EXPECT_EQ(shown_picture(scene, scene.lights[1].shape), nullptr);
 }
 
 TEST(Toml, PathsInterpolateTheirKeys) {
