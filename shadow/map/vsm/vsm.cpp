@@ -4,6 +4,7 @@
 // Based on: Donnelly, Lauritzen. Variance Shadow Maps. I3D 2006. [DL06]
 #include "shadow/map/vsm/vsm.h"
 
+#include "shadow/map/derived.h"
 #include "shadow/map/prefilter.h"
 
 namespace gn {
@@ -29,6 +30,9 @@ ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightView
     // Blur and mipmap.
     ShadowMap map = filtered_map(input, views, "moments", raw, params.prefilter);
     offer_ranges(input, recipe, moments.depth, map);
+    if (params.squares != 0) {
+        map.offers.push_back({"mean-n-buffers", add_n_buffer(input.graph, map.texture(), NBuffer::mean), linear()});
+    }
     return map;
 }
 
@@ -53,7 +57,7 @@ const Part& map_vsm() {
         p.citation = "DL06";
         p.filterable = true;
         p.gives = {"moments", "min-max"};
-        p.textures = {"moments"};
+        p.textures = {"moments", "mean-n-buffers"};
         p.features = {Feature::float32_filter};
         p.params = param_table<GnVsmParams>(with_prefilter(
             {
@@ -63,6 +67,10 @@ const Part& map_vsm() {
                 max_deviation_row(offsetof(GnVsmParams, max_deviation)),
                 bleeding_row(offsetof(GnVsmParams, bleeding)),
                 reduction_row(offsetof(GnVsmParams, reduction)),
+                GN_PARAM(
+                    GnVsmParams, squares, boolean, 0, 1, "",
+                    "Reads means of squares of 2^l texels that begin anywhere (N-buffers) instead of mips: boxes and "
+                    "no tents, for as many times the memory as the map has levels."),
             },
             offsetof(GnVsmParams, prefilter)));
         p.params_type = "GnVsmParams";

@@ -4,6 +4,7 @@
 // The mean depth of what hides the light: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010.
 // [YDF+10]
 // Based on: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008. [Lau08]
+// Squares anywhere: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #ifndef GN_SHADOW_MAP_VSM_GLSL
 #define GN_SHADOW_MAP_VSM_GLSL
 
@@ -61,19 +62,61 @@ GN_FN vec2 gn_vsm_found(vec2 moments, float depth, float min_variance) {
     return vec2(1.0f - lit, (moments.x - lit * depth) / max(1.0f - lit, 1.0e-6f));
 }
 
+// Squares that stand for the rectangle of a footprint: from where along each axis the first begins and how far apart they do, in
+// texels, and how many there are, of side 2^level. They end where it does, and overlap where its sides are no powers of two. [Dec05]
+// No more than eight lie along a side: those of a very long box are wider than it.
+struct GnVsmSquares {
+    vec2 first;
+    vec2 apart;
+    ivec2 count;
+    int level;
+};
+
+GN_FN GnVsmSquares gn_vsm_squares_over(vec2 middle, vec2 side, vec4 bounds, int levels) {
+    vec2 low = vec2(bounds.x, bounds.y);
+    vec2 within = clamp(side, vec2(1.0f), vec2(bounds.z, bounds.w) - low);
+    GnVsmSquares squares;
+    float finest = max(floor(log2(min(within.x, within.y)) + 1.0e-3f), ceil(log2(max(within.x, within.y) / 8.0f) - 1.0e-3f));
+    squares.level = clamp(int(finest), 0, levels - 1);
+    float square = float(1 << squares.level);
+    squares.count = clamp(ivec2(ceil(within / square - 1.0e-3f)), ivec2(1), ivec2(8));
+    vec2 room = max(within - square, vec2(0.0f));
+    squares.apart = room / max(vec2(squares.count) - 1.0f, vec2(1.0f));
+    vec2 reach = squares.apart * (vec2(squares.count) - 1.0f) + square;
+    squares.first = clamp(middle - 0.5f * reach, low, max(vec2(bounds.z, bounds.w) - reach, low));
+    return squares;
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #else
 
-vec2 gn_vsm_blockers(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
-    vec2 m = gn_map_mean(moments, at.projected, at.projected.layer, ddx_ts, ddy_ts).xy;
+// Moments over the footprint, from mips or from squares.
+vec2 gn_vsm_mean(GnLookup at, sampler2DArray moments, sampler2DArray squares, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
+    if (params.squares == 0) {
+        return gn_map_mean(moments, at.projected, at.projected.layer, ddx_ts, ddy_ts).xy;
+    }
+    float texels = 1.0 / at.projected.texel_ts;
+    int levels = findMSB(textureSize(squares, 0).x) + 1;
+    GnVsmSquares over = gn_vsm_squares_over(at.projected.uv_ts * texels, (abs(ddx_ts) + abs(ddy_ts)) * texels,
+                                            at.projected.bounds_ts * texels, levels);
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < over.count.x * over.count.y; ++i) {
+        vec2 start = over.first + over.apart * vec2(i % over.count.x, i / over.count.x);
+        sum += textureLod(squares, vec3((start + 0.5) * at.projected.texel_ts, at.projected.layer * levels + over.level), 0.0).xy;
+    }
+    return sum / float(over.count.x * over.count.y);
+}
+
+vec2 gn_vsm_blockers(GnLookup at, sampler2DArray moments, sampler2DArray squares, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
+    vec2 m = gn_vsm_mean(at, moments, squares, ddx_ts, ddy_ts, params);
     float deviation = gn_vsm_deviation(at.projected, params.min_deviation);
     return gn_vsm_found(gn_vsm_limit(m, params.max_deviation), at.projected.depth, deviation * deviation);
 }
 
-float gn_vsm_visibility(GnLookup at, sampler2DArray moments, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
+float gn_vsm_visibility(GnLookup at, sampler2DArray moments, sampler2DArray squares, vec2 ddx_ts, vec2 ddy_ts, GnVsmParams params) {
     GnProjected projected = at.projected;
-    vec2 m = gn_map_mean(moments, projected, projected.layer, ddx_ts, ddy_ts).xy;
+    vec2 m = gn_vsm_mean(at, moments, squares, ddx_ts, ddy_ts, params);
     float deviation = gn_vsm_deviation(projected, params.min_deviation);
     m = gn_vsm_limit(m, params.max_deviation);
     float bound = gn_vsm_chebyshev(m, projected.depth, deviation * deviation);

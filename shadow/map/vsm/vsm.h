@@ -16,6 +16,7 @@ struct GnVsmParams {
     float max_deviation GN_DEFAULT(0.5f);
     float bleeding GN_DEFAULT(0.2f);
     int reduction GN_DEFAULT(GN_VSM_LINEAR);
+    int squares GN_DEFAULT(0);
 };
 
 #endif

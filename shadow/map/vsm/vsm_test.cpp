@@ -128,6 +128,30 @@ TEST(VsmRendered, BleedingOnTheStackFollowsTheEquation) {
     }
 }
 
+/// Squares leave no gap, end where the box does, and one alone is a box whose side is a power of two.
+TEST(Vsm, SquaresCoverABoxFromEndToEnd) {
+    const vec4 bounds(16, 0, 80, 64);
+    for (const vec2 side : {vec2(1), vec2(4), vec2(5.5F, 7), vec2(8, 20), vec2(3, 17), vec2(64), vec2(300, 40)}) {
+        for (const vec2 middle : {vec2(40, 30), vec2(17, 63)}) {
+            const GnVsmSquares over = gn_vsm_squares_over(middle, side, bounds, 7);
+            const auto square = static_cast<float>(1 << over.level);
+            const vec2 within = min(side, vec2(64));
+            for (int c = 0; c < 2; ++c) {
+                const float reach = over.apart[c] * static_cast<float>(over.count[c] - 1) + square;
+                EXPECT_LE(over.apart[c], square) << side[c];
+                EXPECT_NEAR(reach, std::max(within[c], square), 1e-3F);
+                EXPECT_GE(over.first[c], bounds[c]);
+                EXPECT_LE(over.first[c] + reach, bounds[c + 2] + 1e-3F);
+            }
+        }
+    }
+    EXPECT_EQ(gn_vsm_squares_over(vec2(40), vec2(3, 17), bounds, 7).level, 2)
+        << "eight squares of two are no 17 texels";
+    EXPECT_EQ(gn_vsm_squares_over(vec2(40), vec2(16), bounds, 7).count, ivec2(1));
+    EXPECT_EQ(gn_vsm_squares_over(vec2(40), vec2(16), bounds, 7).first, vec2(32));
+    EXPECT_EQ(gn_vsm_squares_over(vec2(40), vec2(17), bounds, 7).count, ivec2(2));
+}
+
 TEST(Vsm, TheSpreadOfAPlaneIsNoMoreThanItsDepthAllows) {
     // Depths lie in [0,1], as far to one side of their mean as to the other: their variance is at most the square of the
     // way to the nearer end.
