@@ -16,6 +16,15 @@ GN_FN float gn_gradient_noise(vec2 p_ss) {
     return inner - floor(inner);
 }
 
+// The same of a surface: it stays where it is as the camera moves, but where a pixel's size there passes from one power of two to
+// the next. Of the cell in which a point lies of a grid over the two axes along which the surface mostly runs.
+GN_FN float gn_surface_noise(vec3 p_ws, vec3 n_ws, float pixel_ws) {
+    vec3 a = abs(n_ws);
+    vec2 p = a.x > max(a.y, a.z) ? vec2(p_ws.y, p_ws.z) : a.y > a.z ? vec2(p_ws.x, p_ws.z) : vec2(p_ws.x, p_ws.y);
+    vec2 cell = floor(p * exp2(-floor(log2(max(pixel_ws, 1.0e-30f)) + 0.5f)));
+    return gn_gradient_noise(cell - 4096.0f * floor(cell / 4096.0f) + 0.5f);
+}
+
 // Point i of n on a disc: the golden-angle spiral. [Vog79]
 GN_FN vec2 gn_vogel(int i, int n, float phase) {
     float r = sqrt((float(i) + 0.5f) / float(n));

@@ -42,6 +42,11 @@ ParamTable rows() {
                   "Of what least and greatest depths are known: of single texels on, or of blocks of 8 x 8, which are "
                   "made in a fraction of the time, end fewer searches and widen those beside near casters.",
                   "texels", "blocks"),
+        GN_CHOICE(
+            GnPcssParams, noise,
+            "What turns the taps: the place in the picture, so that noise swims over surfaces as the camera moves, or "
+            "the place on the surface, on which it stays.",
+            "pixel", "surface"),
     });
 }
 

@@ -13,6 +13,14 @@
 
 #ifndef __cplusplus
 
+// What turns the taps from pixel to pixel, or from place to place on the surface; there a pixel's size is the mean of its sides.
+float gn_pcss_noise(GnReceiver receiver, GnPcssParams params) {
+    if (params.noise == GN_PCSS_OF_PIXEL) {
+        return gn_gradient_noise(receiver.p_ss);
+    }
+    return gn_surface_noise(receiver.p_ws, receiver.n_ws, sqrt(length(receiver.ddx_ws) * length(receiver.ddy_ws)));
+}
+
 struct GnPcssFound {
     float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
     float receiver;    // metres along the axis
@@ -53,7 +61,7 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
 float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    float noise = gn_gradient_noise(at.receiver.p_ss);
+    float noise = gn_pcss_noise(at.receiver, params);
     GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, noise);
     if (found.visibility >= 0.0) {
         return found.visibility;
@@ -77,7 +85,7 @@ float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
 float gn_pcss_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     params.early_out = 0;
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_gradient_noise(at.receiver.p_ss));
+    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
 }
 
@@ -85,7 +93,7 @@ float gn_pcss_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray
 float gn_pcss_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     params.early_out = 0;
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_gradient_noise(at.receiver.p_ss));
+    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
 }
 #endif

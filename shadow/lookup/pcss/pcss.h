@@ -11,6 +11,9 @@
 #define GN_PCSS_TEXELS 0
 #define GN_PCSS_BLOCKS 1
 
+#define GN_PCSS_OF_PIXEL 0
+#define GN_PCSS_OF_SURFACE 1
+
 struct GnPcssParams {
     int blocker GN_DEFAULT(GN_PCSS_AVERAGE);
     int search_taps GN_DEFAULT(16);
@@ -19,6 +22,7 @@ struct GnPcssParams {
     float least GN_DEFAULT(1.5f);
     int early_out GN_DEFAULT(1);
     int extremes GN_DEFAULT(GN_PCSS_TEXELS);
+    int noise GN_DEFAULT(GN_PCSS_OF_PIXEL);
 };
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The penumbra of a half-plane is as wide as the light makes it, whatever the map's resolution and the kind of light.
 #include "shadow/lookup/pcss/pcss.glsl"
+#include "shadow/recipe/part.h"
 #include "tests/penumbra.h"
 #include "tests/warp_scene.h"
 
@@ -65,6 +66,20 @@ TEST(Pcss, DiscsTurnToTheReceiverAndRectanglesDoNot) {
     EXPECT_NEAR(glm::length(glsl::gn_pcss_light(light, p_ws).up_ws), std::tan(0.1), 1e-6);
 }
 
+/// A point keeps its noise while a pixel there is as large, whatever else the camera does; points beside it have others.
+TEST(Pcss, NoiseOfASurfaceStaysOnIt) {
+    const vec3 n_ws = glm::normalize(vec3(0.1F, 1, -0.2F));
+    double sum = 0;
+    for (int i = 0; i < 400; ++i) {
+        const vec3 p_ws(0.013F * static_cast<float>(i % 20), -1e-7F, 0.0171F * static_cast<float>(i / 20) - 5000);
+        const float noise = glsl::gn_surface_noise(p_ws, n_ws, 0.008F);
+        EXPECT_EQ(glsl::gn_surface_noise(p_ws, n_ws, 0.01F), noise);
+        EXPECT_EQ(glsl::gn_surface_noise(p_ws + vec3(0, 2e-7F, 0), n_ws, 0.008F), noise) << "a plane has no other side";
+        sum += static_cast<double>(noise);
+    }
+    EXPECT_NEAR(sum / 400, 0.5, 3 * std::sqrt(1.0 / 12 / 400));
+}
+
 /// Casters before the receivers keep their distances where a lookup reads them, and are clamped where it does not.
 TEST(Pcss, CastersKeepTheirDistances) {
     for (const char* scene_name : {"half-plane", "half-plane:light=spot", "half-plane:light=directional"}) {
@@ -96,27 +111,62 @@ TEST(Pcss, DistancesAreAlongTheLightsAxisWhateverWayTheViewLooks) {
     }
 }
 
+/// `noise`: the most that samples may err by, on the root mean square.
+void expect_ramp(const char* scene, const std::string& recipe, int resolution, const test::ComparisonOptions& size,
+                 double noise) {
+    const auto c = test::compare(scene, fmt::format("{},resolution={}", recipe, resolution), size);
+    const std::vector<test::Slice> slices = test::error_slices(c, 20);
+    // The map decides a caster's edge to its texel, as seen on the receiver 2 m behind it: views are at most 24 m wide
+    // there, ramps at least 0.5 m.
+    const double texel = 24.0 / resolution / 2 / 0.5;
+    // Where a share s of the light is hidden, 16 even taps of the search miss it with 1 - 16 s: V is too great by
+    // s (1 - 16 s), at most 1 / 64.
+    const double missed = 1.0 / 64;
+    for (std::size_t s = 0; s < slices.size(); ++s) {
+        if (slices.at(s).samples > 20) {
+            EXPECT_NEAR(slices.at(s).mean(), 0, texel + missed + 4 * slices.at(s).standard_error())
+                << scene << " by " << recipe << " at " << resolution << ", slice " << s;
+        }
+    }
+    EXPECT_LT(*c.errors.penumbra, noise) << scene << " by " << recipe;
+}
+
 TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
+    // 32 taps: even sets of points err by less than 2 / 32 on a straight edge.
+    const double noise = 0.06;
     for (const char* scene :
          {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
         for (const int resolution : {512, 2048}) {
-            const auto c = test::compare(scene, fmt::format("pcss,resolution={}", resolution),
-                                         {.width = 128, .height = 96, .samples = 256});
-            const std::vector<test::Slice> slices = test::error_slices(c, 20);
-            // The map decides a caster's edge to its texel, as seen on the receiver 2 m behind it: views are at most 24 m wide
-            // there, ramps at least 0.5 m.
-            const double texel = 24.0 / resolution / 2 / 0.5;
-            // Where a share s of the light is hidden, 16 even taps of the search miss it with 1 - 16 s: V is too great by
-            // s (1 - 16 s), at most 1 / 64.
-            const double missed = 1.0 / 64;
-            for (std::size_t s = 0; s < slices.size(); ++s) {
-                if (slices.at(s).samples > 20) {
-                    EXPECT_NEAR(slices.at(s).mean(), 0, texel + missed + 4 * slices.at(s).standard_error())
-                        << scene << " at " << resolution << ", slice " << s;
-                }
+            expect_ramp(scene, "pcss", resolution, {.width = 128, .height = 96, .samples = 256}, noise);
+        }
+    }
+    expect_ramp("half-plane", "pcss,pcss.noise=surface", 512, {.width = 128, .height = 96, .samples = 256}, noise);
+}
+
+/// The light's points are found where a view puts them, whatever it does to the map: every placement of every kind of light.
+TEST(PcssRendered, RampsAreAsWideUnderEveryPlacement) {
+    // That, and what 64 points of the truth err by themselves, half of the root of V (1 - V) / 64.
+    const double noise = 2.0 / 32 + 0.5 * std::sqrt(0.25 / 64);
+    struct Row {
+        const char* kind;
+        uint number;
+    };
+    for (const Row& kind : {Row{"rectangle", GN_LIGHT_RECTANGLE}, Row{"spot", GN_LIGHT_SPOT},
+                            Row{"point", GN_LIGHT_POINT}, Row{"directional", GN_LIGHT_DIRECTIONAL}}) {
+        std::vector<std::string> placements;
+        for (const Part* part : all_parts()) {
+            if (part->stage == Stage::placement && part->lights.has(kind.number)) {
+                placements.push_back(std::string(part->id));
             }
-            EXPECT_LT(*c.errors.penumbra, 0.06)
-                << "32 taps: even sets of points err by less than 2 / 32 on a straight edge";
+        }
+        if (kind.number == GN_LIGHT_DIRECTIONAL) {
+            placements.emplace_back("cascades,cascades.split=sdsm-minmax");
+            placements.emplace_back("cascades,cascades.fit=warped");
+        }
+        EXPECT_GE(placements.size(), 2U);
+        for (const std::string& placement : placements) {
+            expect_ramp(fmt::format("half-plane:light={}", kind.kind).c_str(), "pcss,placement=" + placement, 512,
+                        {.width = 64, .height = 48, .samples = 64}, noise);
         }
     }
 }

@@ -37,6 +37,7 @@ GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     u.resolution = static_cast<float>(recipe.resolution);
     u.guard_texels = guard.texels;
     u.guard_metres = guard.metres;
+    u.guard_before = guard.before;
     return u;
 }
 

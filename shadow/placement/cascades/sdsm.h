@@ -25,6 +25,7 @@ struct GnSdsmConstants {
     float resolution GN_DEFAULT(0.0f);  ///< texels
     float guard_texels GN_DEFAULT(0.0f);
     float guard_metres GN_DEFAULT(0.0f);
+    float guard_before GN_DEFAULT(0.0f);
 };
 
 /// Zeroed before every frame. Maxima of bits that order as the floats do; minima are maxima of their complements.

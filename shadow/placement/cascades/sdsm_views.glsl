@@ -68,8 +68,9 @@ void main() {
         vec2 centre = 0.5 * vec2(a.x + a.y, b.x + b.y);
         vec2 depth = depths(i);
         float slack = 5.0e-4 * (depth.y - depth.x) + u.guard_metres + (2.0 + 2.0 * u.guard_texels) * 2.0 * max(h.x, h.y) / u.resolution;
-        float near = depth.x - slack;
-        float metres = depth.y - depth.x + 2.0 * slack;
+        // Towards the light as far as a lookup asks how far away casters are.
+        float near = depth.x - slack - u.guard_before;
+        float metres = depth.y + slack - near;
 
         GnLightView view;
         view.cs_from_ws = mat4(1.0);
