@@ -170,6 +170,20 @@ TEST(FakePenumbraRendered, WithoutSizeTheShadowIsHard) {
     }
 }
 
+/// Edges of a light without extent stay where they are: no step of a flood is drawn.
+TEST(FakePenumbraRendered, NothingIsFloodedWithoutSize) {
+    for (const char* form : {"flood", "jump-flood"}) {
+        const auto steps = [&](const char* scene) {
+            const auto c = test::compare(scene, std::string("fake-penumbra,resolution=64,fake-penumbra.form=") + form,
+                                         {.width = 32, .height = 24, .samples = 1});
+            const auto& passes = c.frame.statistics.passes;
+            return std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.name == "flood"; });
+        };
+        EXPECT_EQ(steps("contact:radius=0"), 0) << form;
+        EXPECT_GT(steps("contact:radius=1"), 0) << form;
+    }
+}
+
 /// Where only the penumbra is in the picture and not the edge, a flood has nothing to begin with; a search of the map has.
 TEST(FakePenumbraRendered, AFloodLosesThePenumbraWhoseHardShadowIsOffScreen) {
     const test::ComparisonOptions size{.width = 96, .height = 54, .samples = 64, .view = "beside"};
