@@ -56,5 +56,6 @@ void placements(Bench& bench);
 void filters(Bench& bench);
 void inlined(Bench& bench);
 void recording(Bench& bench);
+void soft(Bench& bench);
 
 }  // namespace gn::performance
