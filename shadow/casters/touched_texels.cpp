@@ -139,7 +139,9 @@ std::string text_of(const TouchedTexels& touched, const ShaderInputs& inputs, co
            include_line("shadow/casters/tiles.glsl") + touched.includes + inputs.text() + touched.functions + all;
 }
 
-/// Some drivers end a loop after 65536 rounds and go on behind it: what is left out is said.
+}  // namespace
+
+// Some drivers end a loop after 65536 rounds and go on behind it: what is left out is said.
 void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut) {
     input.graph.answer(cut, [name, remarks = input.late_remarks](std::span<const std::byte> bytes) {
         std::uint32_t was_cut = 0;
@@ -152,8 +154,6 @@ void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut
         }
     });
 }
-
-}  // namespace
 
 void add_touched_texels(const FrameInput& input, const LightViews& views, const TouchedTexels& touched) {
     GN_CHECK(views.kind != ViewKind::paraboloid);

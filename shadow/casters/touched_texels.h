@@ -35,5 +35,8 @@ struct TouchedTexels {
 };
 /// Passes that do it in every view. Views of every kind but paraboloids.
 void add_touched_texels(const FrameInput& input, const LightViews& views, const TouchedTexels& touched);
+/// Says in the frame's remarks, when its answer arrives, that a driver ended a loop of pass `name` early: where the uint `cut`
+/// is not 0.
+void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut);
 
 }  // namespace gn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/geometry/edge_regions.h"
 
+#include "shadow/casters/caster_draw.h"
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/draw.h"
@@ -38,7 +39,7 @@ struct GnEdgeRegion {
 };
 )";
 
-GnEdgeRegion region_of(const FrameInput& input, float growth) {
+GnEdgeRegion region_of(const FrameInput& input, float growth, vec2 size) {
     const GnLight& light = input.light().shape;
     GnEdgeRegion region{.cs_from_ws = input.samples.constants.cs_from_ws, .light_ws = light_point_ws(light)};
     const vec2 half_size = growth * glsl::gn_light_half_size(light);
@@ -53,24 +54,54 @@ GnEdgeRegion region_of(const FrameInput& input, float growth) {
     const vec3 margin(1e-4F * bounds.diagonal());
     region.low_ws = vec4(bounds.min - margin, 1);
     region.high_ws = vec4(bounds.max + margin, 1);
-    region.size = vec2(input.samples.width, input.samples.height);
+    region.size = size;
     return region;
 }
 
-ShaderInputs region_inputs(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass) {
+/// `size`: of what the rectangles are drawn on, pixels.
+ShaderInputs region_inputs(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
+                           vec2 size) {
     ShaderInputs inputs;
     inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
         .buffer("readonly buffer", "Edges", "uvec2 edges[];", buffers.edges)
         .buffer("readonly buffer", "Sides", "uint sides[];", buffers.sides)
-        .constant("GnEdgeRegion", "region", region_of(input, pass.growth));
+        .constant("GnEdgeRegion", "region", region_of(input, pass.growth, size));
     add_gbuffer(inputs, input.device, input.samples);
     inputs.add(pass.extra);
     return inputs;
 }
 
-constexpr const char* fragment_text = R"(
+// How the shader of the rectangles projects: onto the picture, whose near plane clips, or onto a light view, where nothing is
+// nearer than rounding lets it be.
+constexpr const char* picture_text = R"(
+#define GN_EDGE_CLIP(p_ws) (u.region.cs_from_ws * (p_ws))
+#define GN_EDGE_NEAR
+)";
+constexpr const char* view_text = R"(
+layout(push_constant) uniform Push { int index; };
+#define GN_EDGE_CLIP(p_ws) (views[index].cs_from_ws * (p_ws))
+#define GN_EDGE_NEAR                                             \
+    float farthest = 0.0;                                        \
+    for (int i = 0; i < 10; ++i) {                               \
+        farthest = max(farthest, abs(points_cs[i].w));           \
+    }                                                            \
+    for (int i = 0; i < 10; ++i) {                               \
+        points_cs[i].z = 1.0e-5 * farthest;                      \
+    }
+)";
+
+constexpr const char* varyings_text = R"(
 layout(location = 0) flat in vec3 a_ws;
 layout(location = 1) flat in vec3 b_ws;
+layout(location = 2) flat in uint edge_index;
+)";
+
+constexpr const char* texel_text = R"(
+void main() {
+    ivec3 texel = ivec3(gl_FragCoord.xy, views[index].layer);
+)";
+
+constexpr const char* fragment_text = R"(
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 position = gbuffer_position_texel(pixel);
@@ -100,20 +131,10 @@ void main() {
 }
 )";
 
-}  // namespace
-
-HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
-    HardShadow hard{import_volume_buffers(input, {.skip_masked = true, .closed = closed, .culling = false}), {}};
-    add_facing(input, hard.buffers);
-    add_silhouettes(input, hard.buffers);
-    const TextureHandle receivers = add_receivers(input, hard.buffers);
-    hard.visibility = add_count_resolve(input, add_counts(input, hard.buffers, receivers), {.masked = true});
-    return hard;
-}
-
-void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
-                      TextureHandle image, ClearValue clear) {
-    const ShaderInputs inputs = region_inputs(input, buffers, pass);
+/// The pipeline that draws the rectangles, where `projection` says on what, and `begin` how a fragment's main begins.
+std::shared_ptr<const RasterDesc> region_pipeline(const FrameInput& input, const EdgeRegionPass& pass,
+                                                  const ShaderInputs& inputs, const char* projection,
+                                                  const char* begin) {
     const std::uint64_t key = hashed(inputs)
                                   .text(pass.name)
                                   .text(pass.includes)
@@ -122,18 +143,37 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
                                   .value(pass.blend)
                                   .finish()
                                   .low;
-    const auto pipeline = made_once(input.prepared, "edge regions", key, [&] {
-        const std::string head = std::string(frame_text) + include_line("shadow/geometry/seen_light.glsl") +
-                                 std::string(pass.includes) + inputs.text();
+    return made_once(input.prepared, "edge regions", key, [&] {
+        const std::string head = std::string(frame_text) + include_line("shadow/light_view.h") +
+                                 include_line("shadow/geometry/seen_light.glsl") + std::string(pass.includes) +
+                                 inputs.text() + projection;
         RasterDesc desc;
         desc.vertex = {ShaderKind::vertex, "edge-region.vert",
                        head + include_line("shadow/geometry/edge_regions.glsl")};
         desc.fragment = ShaderSource{ShaderKind::fragment, "edge-region.frag",
-                                     fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}{}}}\n", head,
-                                                 pass.result, pass.functions, fragment_text, pass.fragment)};
+                                     fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}{}{}}}\n", head,
+                                                 pass.result, varyings_text, pass.functions, begin, pass.fragment)};
         desc.blend = pass.blend;
         return sealed(desc);
     });
+}
+
+}  // namespace
+
+HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
+    HardShadow hard{import_volume_buffers(input, {.skip_masked = true, .closed = closed, .culling = false}), {}, {}};
+    add_facing(input, hard.buffers);
+    add_silhouettes(input, hard.buffers);
+    const TextureHandle receivers = add_receivers(input, hard.buffers);
+    hard.counts = add_counts(input, hard.buffers, receivers);
+    hard.visibility = add_count_resolve(input, hard.counts, {.masked = true});
+    return hard;
+}
+
+void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
+                      TextureHandle image, ClearValue clear) {
+    const ShaderInputs inputs = region_inputs(input, buffers, pass, vec2(input.samples.width, input.samples.height));
+    const auto pipeline = region_pipeline(input, pass, inputs, picture_text, fragment_text);
     input.graph.add_pass(
         std::string(pass.name),
         [&](PassBuilder& builder) {
@@ -146,6 +186,34 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
             inputs.set(r);
             r.draw_indirect(draws, VkDeviceSize{strips_draw} * sizeof(std::uint32_t));
         });
+}
+
+void add_edge_texels(const FrameInput& input, const VolumeBuffers& buffers, const LightViews& views,
+                     const EdgeRegionPass& pass, TextureHandle image) {
+    GN_CHECK(!views.tiles && views.kind != ViewKind::paraboloid);
+    std::vector<bool> begun(views.layers, false);
+    for (std::size_t i = 0; i < views.views.size(); ++i) {
+        const GnLightView& view = views.views[i];
+        const auto layer = static_cast<std::uint32_t>(view.layer);
+        ShaderInputs inputs = view_list(views);
+        inputs.add(region_inputs(input, buffers, pass, view.resolution * vec2(view.rect_ts.z, view.rect_ts.w)));
+        const auto pipeline = region_pipeline(input, pass, inputs, view_text, texel_text);
+        input.graph.add_pass(
+            std::string(pass.name),
+            [&](PassBuilder& builder) {
+                builder.color(image, begun[layer] ? Load::keep : Load::clear, {}, one_layer(layer));
+                builder.indirect(buffers.draws);
+                inputs.declare(builder);
+            },
+            [inputs, pipeline, draws = buffers.draws, view, index = static_cast<std::int32_t>(i)](Recorder& r) {
+                set_viewport(r, view);
+                r.bind(*pipeline);
+                inputs.set(r);
+                r.push_value(index);
+                r.draw_indirect(draws, VkDeviceSize{strips_draw} * sizeof(std::uint32_t));
+            });
+        begun[layer] = true;
+    }
 }
 
 std::vector<Side> edge_sides() {

@@ -3,6 +3,7 @@
 // one rectangle an edge. The sample itself says whether it is in the region; the rectangle need only hold it.
 layout(location = 0) flat out vec3 a_ws;
 layout(location = 1) flat out vec3 b_ws;
+layout(location = 2) flat out uint edge_index;
 
 // The corners of a box around the light, as steps from its centre; a sun's around its direction.
 vec3 light_corner(int i, vec3 x_ws, vec3 y_ws) {
@@ -50,10 +51,11 @@ bool find_points() {
     for (int i = 0; i < 8; ++i) {
         vec3 e_ws = (i & 4) != 0 ? b_ws : a_ws;
         vec3 ray_ws = e_ws * u.region.light_ws.w - u.region.light_ws.xyz - light_corner(i, x_ws, y_ws);
-        points_cs[i] = u.region.cs_from_ws * vec4(e_ws + s * ray_ws, 1.0);
+        points_cs[i] = GN_EDGE_CLIP(vec4(e_ws + s * ray_ws, 1.0));
     }
-    points_cs[8] = u.region.cs_from_ws * vec4(a_ws, 1.0);
-    points_cs[9] = u.region.cs_from_ws * vec4(b_ws, 1.0);
+    points_cs[8] = GN_EDGE_CLIP(vec4(a_ws, 1.0));
+    points_cs[9] = GN_EDGE_CLIP(vec4(b_ws, 1.0));
+    GN_EDGE_NEAR
     return true;
 }
 
@@ -101,6 +103,7 @@ void main() {
     uint corner = uint(gl_VertexIndex) % 6u;
     uvec2 edge = edges[side >> 1];
     bool turned = (side & 1u) != 0u;
+    edge_index = side >> 1;
     a_ws = positions[turned ? edge.y : edge.x];
     b_ws = positions[turned ? edge.x : edge.y];
     corner = corner < 3u ? corner : corner == 3u ? 2u : corner == 4u ? 1u : 3u;

@@ -14,6 +14,7 @@ namespace gn {
 struct HardShadow {
     VolumeBuffers buffers;
     Visibility visibility;
+    TextureHandle counts;  ///< R32F: how many volumes hold a sample
 };
 /// By shadow volumes that count behind the samples, and rays through masked casters, which have no silhouettes; nothing is culled,
 /// since what casts no hard shadow may cast a soft one.
@@ -24,8 +25,8 @@ struct EdgeRegionPass {
     std::string_view name;       ///< of the pass
     std::string_view includes;   ///< GLSL before the inputs
     std::string_view functions;  ///< GLSL after them
-    /// GLSL in main: `float result`, or `vec4 result`; it has p_ws and n_ws (the sample), a_ws and b_ws (the edge, as
-    /// gn_lit_side says) and what `extra` declares.
+    /// GLSL in main: `float result`, or `vec4 result`; it has p_ws and n_ws (the sample) at `ivec2 pixel`, a_ws and b_ws (the
+    /// edge, as gn_lit_side says), `uint edge_index` (of EdgeList::edges) and what `extra` declares.
     std::string_view fragment;
     std::string_view result = "float";
     ShaderInputs extra;
@@ -35,6 +36,10 @@ struct EdgeRegionPass {
 /// Draws it into the image, which is cleared before.
 void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, const EdgeRegionPass& pass,
                       TextureHandle image, ClearValue clear);
+/// The same over the texels of light views, in which samples may lie that an edge hides part of the light from. GLSL in main has
+/// `ivec3 texel` (the layer last) instead of a sample. The image has the views' layers. Views that do not bend, without tiles.
+void add_edge_texels(const FrameInput& input, const VolumeBuffers& buffers, const LightViews& views,
+                     const EdgeRegionPass& pass, TextureHandle image);
 
 /// What such parts can tell of a sample, and the image of it where the input asks.
 std::vector<Side> edge_sides();

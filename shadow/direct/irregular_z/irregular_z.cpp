@@ -10,7 +10,6 @@
 
 #include "shadow/direct/irregular_z/irregular_z_pairs.h"
 #include "shadow/frame/frame.h"
-#include "shadow/geometry/caster_geometry.h"
 #include "shadow/placement/place.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
@@ -18,19 +17,6 @@
 
 namespace gn {
 namespace {
-
-constexpr const char* pair_text = R"(
-void gn_pair(uint sample_index, vec3 p_ws, vec3 n_ws, uint triangle, GnOccluder t, bool masked) {
-    bool hides = gn_occluder_hides(t, p_ws, n_ws, u.light_ws);
-    if (masked && hides) {
-        vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
-        hides = gn_mask_solid(triangle, gn_hit_shares(gn_occluder_edges(t, origin_ws), gn_towards(origin_ws, u.light_ws)));
-    }
-    if (hides) {
-        atomicOr(hidden[sample_index], 1u);
-    }
-}
-)";
 
 constexpr const char* resolve_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -64,24 +50,8 @@ Visibility add_irregular_z(const FrameInput& input, const Recipe& recipe) {
     const auto params = recipe.of<GnIrregularZParams>("irregular-z");
     const LightViews views = place_views(input, recipe);
 
-    // Nothing is hidden yet.
-    const VkDeviceSize bytes = VkDeviceSize{input.samples.width} * input.samples.height * sizeof(std::uint32_t);
-    const BufferHandle hidden = input.graph.create(BufferDesc{.name = "irregular-z hidden", .bytes = bytes});
-    input.graph.add_pass(
-        "irregular-z: light", [&](PassBuilder& pass) { pass.copy_to(hidden); },
-        [hidden](Recorder& r) { r.fill(hidden, 0); });
-
-    // Every triangle hides the light from the samples that it hides it from.
-    SamplePairs pairs{.name = "irregular-z",
-                      .includes = "",
-                      .inputs = {},
-                      .functions = pair_text,
-                      .margin = "",
-                      .list_triangles = params.lists == GN_IRREGULAR_TRIANGLES};
-    pairs.inputs.buffer("buffer", "Hidden", "uint hidden[];", hidden);
-    pairs.inputs.constant("vec4", "light_ws", light_point_ws(input.light().shape));
-    add_sample_pairs(input, recipe, views, pairs);
-    return add_resolve_hidden(input, hidden);
+    const HiddenSamples found = add_hidden_samples(input, recipe, views, params.lists == GN_IRREGULAR_TRIANGLES);
+    return add_resolve_hidden(input, found.hidden);
 }
 
 std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& recipe) {

@@ -12,6 +12,19 @@
 namespace gn {
 namespace {
 
+constexpr const char* hides_text = R"(
+void gn_pair(uint sample_index, vec3 p_ws, vec3 n_ws, uint triangle, GnOccluder t, bool masked) {
+    bool hides = gn_occluder_hides(t, p_ws, n_ws, u.light_ws);
+    if (masked && hides) {
+        vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
+        hides = gn_mask_solid(triangle, gn_hit_shares(gn_occluder_edges(t, origin_ws), gn_towards(origin_ws, u.light_ws)));
+    }
+    if (hides) {
+        atomicOr(hidden[sample_index], 1u);
+    }
+}
+)";
+
 constexpr const char* sample_main = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
@@ -181,6 +194,29 @@ TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const
                          functions + list_functions(ListAccess::read), walk_triangles);
     }
     return lists;
+}
+
+HiddenSamples add_hidden_samples(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                                 bool list_triangles) {
+    // Nothing is hidden yet.
+    HiddenSamples found;
+    const VkDeviceSize bytes = VkDeviceSize{input.samples.width} * input.samples.height * sizeof(std::uint32_t);
+    found.hidden = input.graph.create(BufferDesc{.name = "irregular-z hidden", .bytes = bytes});
+    input.graph.add_pass(
+        "irregular-z: light", [&](PassBuilder& pass) { pass.copy_to(found.hidden); },
+        [hidden = found.hidden](Recorder& r) { r.fill(hidden, 0); });
+
+    // Every triangle hides the light from the samples that it hides it from.
+    SamplePairs pairs{.name = "irregular-z",
+                      .includes = "",
+                      .inputs = {},
+                      .functions = hides_text,
+                      .margin = "",
+                      .list_triangles = list_triangles};
+    pairs.inputs.buffer("buffer", "Hidden", "uint hidden[];", found.hidden);
+    pairs.inputs.constant("vec4", "light_ws", light_point_ws(input.light().shape));
+    found.lists = add_sample_pairs(input, recipe, views, pairs);
+    return found;
 }
 
 }  // namespace gn

@@ -28,4 +28,13 @@ struct SamplePairs {
 TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                             const SamplePairs& pairs);
 
+/// What the light's centre is hidden from: a uint a view sample, by row and column, 0 where nothing hides it; and the lists of
+/// samples (or triangles) by which it was found.
+struct HiddenSamples {
+    BufferHandle hidden;
+    TexelLists lists;
+};
+HiddenSamples add_hidden_samples(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                                 bool list_triangles);
+
 }  // namespace gn
