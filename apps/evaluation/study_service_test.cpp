@@ -4,6 +4,7 @@
 
 #include "apps/evaluation/study_analysis.h"
 #include "base/error.h"
+#include "tests/thorough.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -215,8 +216,10 @@ TEST(Threshold, SessionsConvergeAndTheFitFindsThePlantedConstant) {
     Visitor visitor(folder);
     StudyStore store(folder / "answers.sqlite");
     std::mt19937_64 random(5);
+    // Every request goes through all answers anew, which sanitizers make slow.
+    const int people = test::sanitized && !test::thorough() ? 1 : 4;
     int lines = 0, trials = 0;
-    for (int person = 0; person < 4; ++person) {
+    for (int person = 0; person < people; ++person) {
         const std::string token = visitor.begin({{"screen", good_screen}});
         while (!visitor.state(token).at("done").get<bool>()) {
             const json answer = observed(plan, store, token, 3.2, random);
@@ -234,10 +237,10 @@ TEST(Threshold, SessionsConvergeAndTheFitFindsThePlantedConstant) {
     // Half of the trials are lines: within four deviations of a fair coin.
     EXPECT_NEAR(lines, 0.5 * trials, 4 * 0.5 * std::sqrt(trials));
     const auto results = study_results(plan, store);
-    EXPECT_EQ(results.at("finished"), 4);
+    EXPECT_EQ(results.at("finished"), people);
     for (const auto& condition : results.at("conditions")) {
-        // Four thresholds, each sure to a tenth: the mean to 5 %.
-        EXPECT_NEAR(condition.at("c").get<double>(), 3.2, 3 * 0.05 * 3.2) << condition.dump();
+        // Thresholds are sure to a tenth each; participants differ from run to run: five deviations of their mean.
+        EXPECT_NEAR(condition.at("c").get<double>(), 3.2, 5 * 0.1 / std::sqrt(people) * 3.2) << condition.dump();
     }
     EXPECT_GE(results.at("conditions").at(0).at("c"), results.at("conditions").at(1).at("c")) << "the worst case first";
     const std::string csv = study_csv(plan, store);
