@@ -108,7 +108,8 @@ TEST(CommandLine, SizesAreWidthXHeight) {
 }
 
 TEST(CommandLine, UnknownNamesListTheKnown) {
-    expect_misuse({"render", "slab", "--show", "texel"}, {"'texel'", "view", "texels", "bias", "map", "light-view"});
+    expect_misuse({"render", "slab", "--show", "texel"},
+                  {"'texel'", "view", "texels", "undersampling", "bias", "map", "light-view"});
     expect_misuse({"render", "slab", "--light", "key"}, {"--light", "--show"});
     expect_misuse({"render", "slab", "--show", "view", "--light", "moon"}, {"'moon'", "--light"});
     expect_misuse({"render", "slap"}, {"slap", "slab", "courtyard"});
@@ -201,7 +202,7 @@ TEST(List, HasWhatIsPromised) {
         EXPECT_TRUE(has("scenes", scene)) << scene;
     }
     for (const char* metric : {"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow", "penumbra", "edge",
-                               "luma_rms", "flip", "against"}) {
+                               "undersampled", "undersampling", "luma_rms", "flip", "against"}) {
         EXPECT_TRUE(has("metrics", metric)) << metric;
     }
 }

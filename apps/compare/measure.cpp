@@ -96,15 +96,33 @@ struct PictureNames {
     }
 };
 
-/// Which lit but darkened samples lie beside a shadow, within the kernel's reach; nothing where no map is looked up.
-std::vector<std::uint8_t> explained_acne(ViewSession& view, Bench& bench, const Recipe& recipe, const Image& technique,
-                                         std::size_t light, const TruthResult& truth) {
+HiddenOptions hidden_options(const Image& technique, std::size_t light) {
     HiddenOptions options;
     options.width = static_cast<uint>(technique.width);
     options.height = static_cast<uint>(technique.height);
     options.light = light;
+    return options;
+}
+
+/// Pixels under a texel, of the counted samples that the map holds; nothing without a map.
+std::vector<float> counted_texels(ViewSession& view, Bench& bench, const Recipe& recipe, const Image& technique,
+                                  std::size_t light, const TruthResult& truth) {
+    const std::vector<float> all =
+        undersampling(bench.device(), view.gpu(bench), view.camera(), recipe, hidden_options(technique, light));
+    std::vector<float> counted;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+        if (truth.counted[p] != 0 && all[p] >= 0) {
+            counted.push_back(all[p]);
+        }
+    }
+    return counted;
+}
+
+/// Which lit but darkened samples lie beside a shadow, within the kernel's reach; nothing where no map is looked up.
+std::vector<std::uint8_t> explained_acne(ViewSession& view, Bench& bench, const Recipe& recipe, const Image& technique,
+                                         std::size_t light, const TruthResult& truth) {
     const std::vector<KernelRegion> regions =
-        kernel_regions(bench.device(), view.gpu(bench), view.camera(), recipe, options);
+        kernel_regions(bench.device(), view.gpu(bench), view.camera(), recipe, hidden_options(technique, light));
     const auto channels = static_cast<std::size_t>(truth.channels);
     std::vector<Surroundings> around(regions.size());
     for (std::size_t k = 0; k < channels * around.size(); ++k) {
@@ -161,6 +179,7 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
     const FrameResult* against = view.against(bench);
     SignedErrors combined;
     std::vector<Errors> errors;
+    std::vector<float> texels;
     std::vector<bool> served(view.scene().lights.size(), false);
     for (std::size_t l = 0; l < served.size(); ++l) {
         if (!view.wanted(l)) {
@@ -181,6 +200,9 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             light.errors = errors_of(frame.visibility[l], view.samples(), view.scene().lights[l].shape, truth,
                                      explained_acne(view, bench, recipe, frame.visibility[l], l, truth),
                                      other_of(run, against, l, light.name, frame.visibility[l].channels));
+            const std::vector<float> m = counted_texels(view, bench, recipe, frame.visibility[l], l, truth);
+            judge_texels(light.errors, m);
+            texels.insert(texels.end(), m.begin(), m.end());
             errors.push_back(light.errors);
             served[l] = true;
             const std::vector<float> map = combined.add(frame.visibility[l], truth);
@@ -194,6 +216,7 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
     // Pool the served lights.
     if (!errors.empty()) {
         run.errors = pool(errors);
+        judge_texels(run.errors, texels);
         run.error_map = names.write("error", error_map(combined.largest, combined.counted, run.width, run.height));
     }
     return served;

@@ -2,6 +2,7 @@
 #include "shadow/metrics/metrics.h"
 
 #include "base/error.h"
+#include "base/stats.h"
 
 #include <algorithm>
 #include <array>
@@ -102,7 +103,7 @@ WeightedErrors pool_weighted(std::span<const Errors> lights) {
 }  // namespace
 
 std::span<const MetricInfo> all_metrics() {
-    static constexpr std::array<MetricInfo, 14> metrics{{
+    static constexpr std::array<MetricInfo, 16> metrics{{
         {"rmse", "Root mean square of T - R.", &Errors::rmse},
         {"mae", "Mean of the absolute T - R.", &Errors::mae},
         {"max", "Largest absolute T - R.", &Errors::max},
@@ -113,6 +114,10 @@ std::span<const MetricInfo> all_metrics() {
          &Errors::self_shadow},
         {"penumbra", "Root mean square of T - R where R is between 0 and 1.", &Errors::penumbra},
         {"edge", "Fraction of samples within one pixel of a discontinuity of R.", &Errors::edge},
+        {"undersampled", "Fraction of samples where a map texel covers more than a pixel in some direction (m > 1).",
+         &Errors::undersampled},
+        {"undersampling", "Pixels under a map texel where it covers most, m: 95 % of the samples have less.",
+         &Errors::undersampling},
         {"luma_rms", "Root mean square difference of the pictures' luma, on the scale of 0 to 255.", &Errors::luma_rms},
         {"flip", "Mean FLIP of the pictures: the difference an observer sees when they alternate.", &Errors::flip},
         {"flicker", "Root mean square change of T - R between frames at reprojected samples.", &Errors::flicker},
@@ -233,6 +238,15 @@ void hold_against(Errors& errors, std::span<const float> technique, std::span<co
     }
     errors.against = all.root_mean_square();
     errors.against_mean = all.over_count(signed_sum);
+}
+
+void judge_texels(Errors& errors, std::span<const float> m) {
+    if (m.empty()) {
+        return;
+    }
+    const auto coarse = static_cast<double>(std::count_if(m.begin(), m.end(), [](float one) { return one > 1.0F; }));
+    errors.undersampled = coarse / static_cast<double>(m.size());
+    errors.undersampling = percentile(std::vector<double>(m.begin(), m.end()), 0.95);
 }
 
 std::vector<float> channel_of(std::span<const float> interleaved, int channels, int channel) {

@@ -27,8 +27,8 @@ std::span<const WeightedInfo> weighted_metrics();
 /// Every figure; a value that has no samples is absent, never 0.
 struct Errors {
     std::size_t samples = 0;
-    std::optional<double> rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, luma_rms, flip, flicker,
-        against, against_mean;
+    std::optional<double> rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, undersampled,
+        undersampling, luma_rms, flip, flicker, against, against_mean;
     std::size_t dark = 0, lit = 0,
                 partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
     WeightedErrors weighted;
@@ -38,8 +38,8 @@ struct MetricInfo {
     std::string_view name, sentence;
     std::optional<double> Errors::*value;
 };
-/// In the order of the report: rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, luma_rms, flip,
-/// flicker, against, against_mean.
+/// In the order of the report: rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, undersampled,
+/// undersampling, luma_rms, flip, flicker, against, against_mean.
 std::span<const MetricInfo> all_metrics();
 
 /// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a
@@ -61,12 +61,15 @@ std::vector<std::uint8_t> edge_pixels(std::span<const float> reference, std::spa
 /// same counted samples. What is not a number in either of them counts as a difference of 1.
 void hold_against(Errors& errors, std::span<const float> technique, std::span<const float> other,
                   std::span<const std::uint8_t> counted);
+/// Fills `undersampled` and `undersampling`. m: of every counted sample that a light view holds, the pixels under a map texel
+/// (shadow/show/show.h); empty where there is no map: both stay absent.
+void judge_texels(Errors& errors, std::span<const float> m);
 /// One channel of values that are interleaved, a value a sample.
 std::vector<float> channel_of(std::span<const float> interleaved, int channels, int channel);
 /// The errors of a light's channels as those of the light: each channel's samples count alike, and each sample once.
 Errors pool_channels(std::span<const Errors> channels);
 /// Several lights pooled: as if their samples were one list. Figures of pictures and paths are not samples of a light and
-/// stay absent.
+/// stay absent; so are those of texels, whose percentile is one of samples and not of figures.
 Errors pool(std::span<const Errors> lights);
 
 /// Display-ready RGB pictures in [0,1], sRGB-encoded, of one size. A fourth channel is ignored.

@@ -83,8 +83,8 @@ TEST(Metrics, NamesAreInOrder) {
         EXPECT_FALSE(metric.sentence.empty());
     }
     EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow",
-                                                    "penumbra", "edge", "luma_rms", "flip", "flicker", "against",
-                                                    "against_mean"}));
+                                                    "penumbra", "edge", "undersampled", "undersampling", "luma_rms",
+                                                    "flip", "flicker", "against", "against_mean"}));
 }
 
 TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
@@ -155,6 +155,22 @@ TEST(Metrics, SelfShadowIsTheAcneThatNoEdgeExplains) {
     Errors none;
     split_acne(none, Floats{1}, Floats{0}, Bytes{1}, Bytes{0});
     EXPECT_FALSE(none.self_shadow.has_value());
+}
+
+TEST(Metrics, TexelsAreJudgedByTheShareAboveOneAndThePercentile) {
+    // Twenty-one values by tenths up to 2.1: eleven are above 1, one is 1, and 95 % of the way from first to last is 2.
+    Floats m;
+    for (int i = 21; i >= 1; --i) {
+        m.push_back(i == 10 ? 1.0F : 0.1F * static_cast<float>(i));
+    }
+    Errors errors;
+    judge_texels(errors, m);
+    EXPECT_DOUBLE_EQ(errors.undersampled.value(), 11.0 / 21);
+    EXPECT_NEAR(errors.undersampling.value(), 2.0, 1e-6);
+    Errors without_a_map;
+    judge_texels(without_a_map, {});
+    EXPECT_FALSE(without_a_map.undersampled.has_value());
+    EXPECT_FALSE(without_a_map.undersampling.has_value());
 }
 
 TEST(Metrics, AgainstIsTheSignedAndTheRootMeanSquareDistance) {

@@ -17,12 +17,13 @@ namespace gn {
 namespace {
 
 constexpr const char* output_text = R"(
-// Texels per pixel, bias in metres, whether the view holds the receiver.
-vec3 sizes_in(GnReceiver receiver, int index) {
+// Texels per pixel, bias in metres, pixels per texel, whether the view holds the receiver.
+vec4 sizes_in(GnReceiver receiver, int index) {
     GnProjected moved = gn_project(receiver, views[index], u.bias);
     GnProjected still = gn_project(receiver, views[index], u.no_bias);
     float metres = gn_bias_metres(receiver, views[index], moved, still);
-    return vec3(gn_texels_per_pixel(receiver, moved), metres, moved.inside ? 1.0 : 0.0);
+    return vec4(gn_texels_per_pixel(receiver, moved), metres, gn_undersampling_in(receiver, moved),
+                moved.inside ? 1.0 : 0.0);
 }
 
 void main() {
@@ -31,7 +32,7 @@ void main() {
         return;
     }
     vec4 shown = vec4(0.0, -1.0, 0.0, -1.0);
-    vec3 sizes = vec3(0.0, 0.0, -1.0);
+    vec4 sizes = vec4(0.0, 0.0, 0.0, -1.0);
     GnReceiver receiver;
     if (read_sample(pixel, receiver)) {
         GnChoice choice = GN_CHOOSE(receiver, placement);
@@ -39,10 +40,10 @@ void main() {
         if (choice.second >= 0 && choice.weight > 0.0) {
             sizes = mix(sizes, sizes_in(receiver, choice.second), choice.weight);
         }
-        shown = vec4(choice.first, choice.second, choice.second >= 0 ? choice.weight : 0.0, sizes.z);
+        shown = vec4(choice.first, choice.second, choice.second >= 0 ? choice.weight : 0.0, sizes.w);
     }
     imageStore(first, pixel, shown);
-    imageStore(second, pixel, vec4(sizes.xy, 0.0, sizes.z));
+    imageStore(second, pixel, sizes);
 }
 )";
 
@@ -145,6 +146,7 @@ Shown color_hidden(FrameGraph& graph, const Recipe& recipe, const Built& built, 
             return color_choice(read_image(graph, built.figures.choice), shade_of(read_samples(graph, built.samples)),
                                 built.views);
         case Hidden::texels: return color_texels(read_image(graph, built.figures.sizes));
+        case Hidden::undersampling: return color_undersampling(read_image(graph, built.figures.sizes));
         case Hidden::bias: return color_bias(read_image(graph, built.figures.sizes));
         case Hidden::map:
             return color_map(read_image(graph, built.map_tiles.image), built.map_tiles, graph.desc(built.map.texture()),
@@ -205,10 +207,12 @@ std::vector<Shown> show_told(Device& device, SceneGpu& scene, const Camera& came
 }  // namespace
 
 std::span<const HiddenPicture> hidden_pictures() {
-    static constexpr std::array<HiddenPicture, 5> pictures{{
+    static constexpr std::array<HiddenPicture, 6> pictures{{
         {Hidden::view, "view", "Which light view serves a pixel: the cascade or the face, by its index.", true},
         {Hidden::texels, "texels",
          "Map texels along a pixel's side, in the direction that has fewest; below 1 they show as steps.", true},
+        {Hidden::undersampling, "undersampling",
+         "Pixels under a map texel, in the direction where it covers most; above 1 texels show as steps.", true},
         {Hidden::bias, "bias", "Distance in metres that the bias moves a receiver before it is compared with the map.",
          true},
         {Hidden::map, "map", "The map's contents: its layers side by side, its channels below each other.", false},
@@ -279,6 +283,25 @@ std::vector<Shown> show_hidden(Device& device, SceneGpu& scene, const Camera& ca
         shown.back().name = name;
     }
     return shown;
+}
+
+std::vector<float> undersampling(Device& device, SceneGpu& scene, const Camera& camera, const Recipe& recipe,
+                                 const HiddenOptions& options) {
+    if (recipe.map == nullptr) {
+        return {};
+    }
+    FrameGraph graph(device);
+    const Built built = build(graph, scene, camera, recipe, {}, options);
+    graph.execute(false);
+    if (options.history != nullptr) {
+        options.history->advance();
+    }
+    const Image sizes = read_image(graph, built.figures.sizes);
+    std::vector<float> m(sizes.pixels(), -1.0F);
+    for (std::size_t i = 0; i < m.size(); ++i) {
+        m[i] = sizes.values[4 * i + 3] >= 0.5F ? sizes.values[4 * i + 2] : -1.0F;
+    }
+    return m;
 }
 
 }  // namespace gn

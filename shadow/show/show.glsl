@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_LOOKUP_SHOW_GLSL
 #define GN_SHADOW_LOOKUP_SHOW_GLSL
 
-#include "shadow/receiver/receiver.glsl"
+#include "shadow/receiver/undersampling.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -12,14 +12,7 @@ namespace gn::glsl {
 // Map texels along a pixel's side, in the direction that has fewest: the smaller singular value of the texel
 // coordinates' derivative over the pixel's. Below 1 the map's texels are seen as steps.
 GN_FN float gn_texels_per_pixel(GnReceiver receiver, GnProjected projected) {
-    float ux = dot(projected.du_ws, receiver.ddx_ws) / projected.texel_ts;
-    float vx = dot(projected.dv_ws, receiver.ddx_ws) / projected.texel_ts;
-    float uy = dot(projected.du_ws, receiver.ddy_ws) / projected.texel_ts;
-    float vy = dot(projected.dv_ws, receiver.ddy_ws) / projected.texel_ts;
-    float area = ux * vy - vx * uy;
-    float squares = ux * ux + vx * vx + uy * uy + vy * vy;
-    float root = sqrt(max(squares * squares - 4.0f * area * area, 0.0f));
-    return squares > 0.0f ? abs(area) * sqrt(2.0f / (squares + root)) : 0.0f;
+    return 1.0f / gn_undersampling_in(receiver, projected);
 }
 
 // Metres between a receiver projected with its bias and without: the step in the world that changes uv and depth so, to

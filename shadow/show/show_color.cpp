@@ -63,6 +63,16 @@ const Scale& texel_scale() {
     return scale;
 }
 
+/// The scale of texels from its other end: what is coarse stays red.
+const Scale& undersampling_scale() {
+    static const Scale scale = [] {
+        Scale turned = texel_scale();
+        std::reverse(turned.colors.begin(), turned.colors.end());
+        return turned;
+    }();
+    return scale;
+}
+
 const Scale& bias_scale() {
     static const Scale scale{1e-4F,
                              1,
@@ -207,6 +217,15 @@ Shown color_texels(const Image& sizes) {
     shown.legend =
         "Map texels along a pixel's side where they are fewest, from 1/16 (red: steps show) over 1 (pale) to 16 (blue: "
         "finer than the picture); magenta: in no light view, grey: no light arrives.";
+    return shown;
+}
+
+Shown color_undersampling(const Image& sizes) {
+    Shown shown = color_figures(sizes, 2, undersampling_scale());
+    shown.legend =
+        "Pixels under a map texel where it covers most, from 1/16 (blue: finer than the picture) over 1 (pale) to 16 "
+        "(red: "
+        "steps show); magenta: in no light view, grey: no light arrives.";
     return shown;
 }
 

@@ -9,7 +9,7 @@ namespace gn {
 /// What one pass finds for every view sample.
 struct SampleFigures {
     TextureHandle choice;  ///< RGBA32F: first view, second view or -1, its weight, state: 1 held, 0 not, -1 not counted
-    TextureHandle sizes;   ///< RGBA32F: texels per pixel, bias in metres, 0, state
+    TextureHandle sizes;   ///< RGBA32F: texels per pixel, bias in metres, pixels per texel, state
 };
 SampleFigures add_sample_figures(const FrameInput& input, const Recipe& recipe, const LightViews& views);
 
@@ -43,6 +43,7 @@ TextureHandle add_light_picture(const FrameInput& input, const Recipe& recipe, c
 /// Colours. `shade` darkens by the surface's slope against the view, so that shapes stay visible.
 Shown color_choice(const Image& choice, std::span<const float> shade, const LightViews& views);
 Shown color_texels(const Image& sizes);
+Shown color_undersampling(const Image& sizes);
 Shown color_bias(const Image& sizes);
 /// What a lookup told; `sizes` have each sample's state.
 Shown color_side(const Image& side, const Image& sizes, std::string_view sentence);

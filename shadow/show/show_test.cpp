@@ -287,7 +287,7 @@ TEST(Show, TheLightsViewIsBrightWhereSurfacesFaceIt) {
 }
 
 TEST(Show, EveryPlacementHasItsPictures) {
-    const std::vector<std::string> names{"view", "texels", "bias", "map", "light-view"};
+    const std::vector<std::string> names{"view", "texels", "undersampling", "bias", "map", "light-view"};
     const Scene sun = load_scene("corridor"), point = load_scene("slab:light=point");
     for (const Part* part : all_parts()) {
         if (part->stage != Stage::placement) {
