@@ -9,6 +9,7 @@
 #include "shadow/scene/casting.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gn {
 
@@ -48,10 +49,14 @@ std::uint64_t key_of(const CasterJob& job, const CasterVariant& variant) {
 }  // namespace
 
 void set_viewport(Recorder& r, const GnLightView& view) {
-    const float n = view.resolution;
-    r.viewport(view.rect_ts.x * n, view.rect_ts.y * n, view.rect_ts.z * n, view.rect_ts.w * n);
-    r.scissor(static_cast<std::int32_t>(view.rect_ts.x * n), static_cast<std::int32_t>(view.rect_ts.y * n),
-              static_cast<std::uint32_t>(view.rect_ts.z * n), static_cast<std::uint32_t>(view.rect_ts.w * n));
+    // Whole texels are whole whatever a quotient's rounding makes of them.
+    vec4 texels = view.rect_ts * view.resolution;
+    for (int i = 0; i < 4; ++i) {
+        texels[i] = std::abs(texels[i] - std::round(texels[i])) < 1e-3F ? std::round(texels[i]) : texels[i];
+    }
+    r.viewport(texels.x, texels.y, texels.z, texels.w);
+    r.scissor(static_cast<std::int32_t>(texels.x), static_cast<std::int32_t>(texels.y),
+              static_cast<std::uint32_t>(texels.z), static_cast<std::uint32_t>(texels.w));
 }
 
 void CasterDraw::begin(Recorder& r, const CasterFaces& faces, bool masked) const {

@@ -17,10 +17,10 @@ std::string layer_head(const ShaderInputs& inputs, bool tiles) {
     std::string text = tiles ? "layout(location = 7) flat in int tile_view;\n"
                                "#define GN_FIRST gn_tile_texels(views[tile_view]).xy\n"
                                "#define GN_LAST gn_tile_texels(views[tile_view]).zw\n"
-                             : "#define GN_FIRST ivec2(0)\n#define GN_LAST (source_size() - 1)\n";
+                             : "#define GN_FIRST push_drawn.xy\n#define GN_LAST (push_drawn.xy + push_drawn.zw - 1)\n";
     text += "#define GN_SOURCE(texel) source_texel(texel)\n";
     return (tiles ? include_line("shadow/casters/tiles.glsl") : "") + inputs.text() + text +
-           "layout(push_constant) uniform Push { int push_map_layer; int push_layer; };\n";
+           "layout(push_constant) uniform Push { ivec4 push_drawn; int push_map_layer; int push_layer; };\n";
 }
 
 /// A texture like `source` with one sample and `mips` levels.
@@ -170,10 +170,26 @@ TextureHandle add_blur(const FrameInput& input, const LightViews& views, Texture
 
 namespace {
 
-/// Which layer of the map a layer of the target belongs to, where a view has several; and the target's own.
+/// Where the layer's views lie; which layer of the map a layer of the target belongs to, where a view has several; and the
+/// target's own.
 struct LayerPush {
+    ivec4 drawn;
     std::int32_t map_layer, layer;
 };
+
+/// Where a layer's views lie, x, y, width and height in texels.
+ivec4 drawn_texels(const LightViews& views, std::uint32_t layer) {
+    vec2 first(static_cast<float>(views.resolution));
+    vec2 end(0);
+    for (const GnLightView& view : views.views) {
+        if (view.layer == static_cast<int>(layer)) {
+            const vec4 texels = view.rect_ts * static_cast<float>(views.resolution);
+            first = glm::min(first, glm::round(vec2(texels)));
+            end = glm::max(end, glm::round(vec2(texels.x + texels.z, texels.y + texels.w)));
+        }
+    }
+    return {ivec2(first), glm::max(ivec2(end - first), ivec2(0))};
+}
 
 /// Fragments of whole layers, or of the tiles in them alone.
 RasterDesc layer_pipeline(const LayerPass& pass, const ShaderInputs& inputs, bool tiles) {
@@ -192,9 +208,13 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
     const auto shader = made_once(input.prepared, pass.name, key.finish().low,
                                   [&] { return sealed(layer_pipeline(pass, inputs, tiles != nullptr)); });
     const std::uint32_t layers = input.graph.desc(target).layers;
+    const TextureDesc& from = input.graph.desc(source);
+    const ivec4 whole(0, 0, static_cast<int>(from.width), static_cast<int>(from.height));
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::uint32_t map_layer = tiles != nullptr ? layer / (layers / tiles->layers) : 0;
-        const LayerPush push{static_cast<std::int32_t>(map_layer), static_cast<std::int32_t>(layer)};
+        const bool known = pass.tiles != nullptr && tiles == nullptr;
+        const ivec4 drawn = known ? drawn_texels(*pass.tiles, layer / (layers / pass.tiles->layers)) : whole;
+        const LayerPush push{drawn, static_cast<std::int32_t>(map_layer), static_cast<std::int32_t>(layer)};
         input.graph.add_pass(
             pass.name,
             [&](PassBuilder& builder) {
@@ -202,12 +222,19 @@ void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHand
                 if (quads.valid()) {
                     builder.indirect(quads);
                 }
-                builder.color(target, quads.valid() ? Load::clear : Load::discard, {}, one_layer(layer));
+                builder.color(target, quads.valid() || known ? Load::clear : Load::discard, {}, one_layer(layer));
             },
-            [shader, inputs, push, quads](Recorder& r) {
+            [shader, inputs, push, quads, known](Recorder& r) {
+                const ivec4& texels = push.drawn;
+                if (known && (texels.z == 0 || texels.w == 0)) {
+                    return;
+                }
                 r.bind(*shader);
                 inputs.set(r);
                 r.push_value(push);
+                if (known) {
+                    r.scissor(texels.x, texels.y, static_cast<uint>(texels.z), static_cast<uint>(texels.w));
+                }
                 quads.valid() ? r.draw_indirect(quads) : r.draw(3);
             });
     }

@@ -24,7 +24,7 @@ TextureHandle add_moments(const FrameInput& input, const Recipe& recipe, const L
 
 /// A separable blur (GN_BLUR_BOX, GN_BLUR_GAUSSIAN) of every layer's mip 0, two fragment passes a layer. radius in texels: a box of 2 radius + 1, or a
 /// Gaussian of sigma = radius / 2 cut at radius. radius 0 or none returns the source. The result has `mips` levels.
-/// Of tiles each is blurred by itself, and what lies between them is 0.
+/// Of tiles each is blurred by itself; of other views what their layer's rectangles span. Beside them the result is 0.
 TextureHandle add_blur(const FrameInput& input, const LightViews& views, TextureHandle source, int kernel, int radius,
                        std::uint32_t mips = 1);
 
@@ -60,7 +60,7 @@ struct LayerPass {
     std::string includes;  ///< GLSL that `inputs` need
     std::string text;      ///< must contain: layout(location = 0) out vec4 ...
     ShaderInputs inputs;
-    const LightViews* tiles = nullptr;  ///< where they are tiles, only their texels are drawn
+    const LightViews* tiles = nullptr;  ///< only their texels are drawn, beside them is 0; null: all texels
 };
 void add_layer_passes(const FrameInput& input, TextureHandle source, TextureHandle target, const LayerPass& pass);
 

@@ -91,7 +91,7 @@ void finish_view(GnLightView& view, const std::array<dvec4, 4>& rows, int resolu
 
 }  // namespace
 
-GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
+GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, ivec2 texels, Guard guard) {
     const dvec3 axis(vec3(light.direction_ws));
     vec3 xf;
     vec3 yf;
@@ -109,14 +109,14 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
 
     // Choose the least rectangle, widened by the kernels' reach.
     Rectangle r = least_rectangle(points);
-    widen(r.min.x, r.max.x, guard, static_cast<double>(guard.metres), resolution);
-    widen(r.min.y, r.max.y, guard, static_cast<double>(guard.metres), resolution);
+    widen(r.min.x, r.max.x, guard, static_cast<double>(guard.metres), texels.x);
+    widen(r.min.y, r.max.y, guard, static_cast<double>(guard.metres), texels.y);
     const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
     const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
 
     GnLightView view;
     const dvec2 size = r.max - r.min;
-    const double texel = std::max(size.x, size.y) / resolution;
+    const double texel = std::max(size.x / texels.x, size.y / texels.y);
     const double slack = 1e-4 * length_of(near, far) + 0.1 * texel;
     near -= slack + static_cast<double>(guard.metres + guard.before) + room_of(guard) * texel;
     far += slack;
@@ -124,7 +124,7 @@ GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int r
                 {dvec4(right * (2 / size.x), -(r.min.x + r.max.x) / size.x),
                  dvec4(down * (2 / size.y), -(r.min.y + r.max.y) / size.y),
                  dvec4(axis / (far - near), -near / (far - near)), dvec4(0, 0, 0, 1)},
-                resolution);
+                texels.x);
     view.depth_from_ws = vec4(dvec4(axis / (far - near), -near / (far - near)));
     view.eye_ws = vec4(vec3(-axis), 0);
     view.metres_per_depth = static_cast<float>(far - near);
@@ -154,7 +154,7 @@ GnLightView perspective(dvec3 eye, dvec3 axis, dvec3 right, dvec3 down, dvec2 mi
 
 }  // namespace
 
-Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, ivec2 texels, Guard guard) {
     const dvec3 eye(vec3(light.position_ws));
     double reach = 0;
     for (const dvec3& p : body.vertices()) {
@@ -197,19 +197,19 @@ Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolut
     }
     Rectangle r = least_rectangle(points);
     // A world radius reaches beyond the body only where nothing receives, so that only texels widen the view.
-    widen(r.min.x, r.max.x, guard, 0.0, resolution);
-    widen(r.min.y, r.max.y, guard, 0.0, resolution);
+    widen(r.min.x, r.max.x, guard, 0.0, texels.x);
+    widen(r.min.y, r.max.y, guard, 0.0, texels.y);
     const dvec3 right = r.axis.x * dvec3(xf) + r.axis.y * dvec3(yf);
     const dvec3 down = -r.axis.y * dvec3(xf) + r.axis.x * dvec3(yf);
 
     // [EASW09] near and far planes of the body; casters before the near plane are clamped to it. A thousandth covers
     // rounding.
-    const dvec2 side = (r.max - r.min) / static_cast<double>(resolution);
+    const dvec2 side = (r.max - r.min) / dvec2(texels);
     const double texel = std::max(side.x, side.y);
     far *= 1.001;
     near *= 1 - room_of(guard) * texel;
     near = std::max(near - 1e-3 * (far - near) - static_cast<double>(guard.before), near_plane(far));
-    return {perspective(eye, axis, right, down, r.min, r.max, near, far, resolution), true};
+    return {perspective(eye, axis, right, down, r.min, r.max, near, far, texels.x), true};
 }
 
 GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,

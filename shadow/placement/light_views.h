@@ -14,11 +14,18 @@ struct Fitted {
     bool valid = false;
 };
 /// The tightest orthographic view along the light's direction around the body: the rectangle of least area. Casters
-/// before the near plane are kept by depth clamping. Guards widen it.
-GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
+/// before the near plane are kept by depth clamping. Guards widen it. `texels`: across and down; the view gets the first.
+GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, ivec2 texels, Guard guard);
 /// The tightest perspective view from the light's position, near and far planes the body's own, or invalid when the body
 /// spans too wide an angle.
-Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard);
+Fitted fit_perspective(const ConvexBody& body, const GnLight& light, ivec2 texels, Guard guard);
+/// The same with as many texels across as down.
+inline GnLightView fit_orthographic(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
+    return fit_orthographic(body, light, ivec2(resolution), guard);
+}
+inline Fitted fit_perspective(const ConvexBody& body, const GnLight& light, int resolution, Guard guard) {
+    return fit_perspective(body, light, ivec2(resolution), guard);
+}
 /// A square perspective view along `axis` with half-angle tangent 1 x widen and linear depth between near and far.
 GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tangent, double near, double far,
                                int resolution);

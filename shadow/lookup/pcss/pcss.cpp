@@ -63,9 +63,13 @@ const Part& lookup_pcss() {
         p.citation = "Fer05";
         p.needs = {"depth", "min-max"};
         p.needs_for = needs_for;
-        p.sides = {{"blocker-distance", "m",
-                    "How far along the light's depth what hides a sample lies before it, on average."},
-                   {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."}};
+        p.sides = {
+            {"blocker-distance", "m",
+             "How far along the light's depth what hides a sample lies before it, on average."},
+            {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."},
+            {"filter-radius", "m",
+             "Radius of the filter at a sample on the light's plane: metres under a sun, else at a metre from the "
+             "light; 0 where no part of the light is hidden."}};
         p.params = rows();
         p.params_type = "GnPcssParams";
         p.glsl = "shadow/lookup/pcss/pcss.glsl";

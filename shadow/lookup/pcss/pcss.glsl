@@ -10,6 +10,7 @@
 
 #include "shadow/lookup/pcss/pcss.h"
 #include "shadow/lookup/pcss/pcss_tap.glsl"
+#include "shadow/receiver/light_plane.glsl"
 
 #ifndef __cplusplus
 
@@ -95,6 +96,19 @@ float gn_pcss_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray p
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
+}
+
+// Half the shorter side of the filter on the light's plane, before `least` widens it; 0 where all of the light is seen or none.
+float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
+    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_gradient_noise(at.receiver.p_ss));
+    if (found.visibility >= 0.0) {
+        return 0.0;
+    }
+    float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
+    float right = length(gn_on_light_plane(at.view, gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread)));
+    float up = length(gn_on_light_plane(at.view, gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread)));
+    return max(min(right, up), 1.0e-30);
 }
 #endif
 

@@ -11,7 +11,8 @@ namespace gn {
 namespace {
 
 /// Evaluates the basis functions of every texel of the depth map.
-TextureHandle add_basis(const FrameInput& input, TextureHandle depth, const GnConvolutionParams& params) {
+TextureHandle add_basis(const FrameInput& input, const LightViews& views, TextureHandle depth,
+                        const GnConvolutionParams& params) {
     TextureDesc desc = input.graph.desc(depth);
     desc.name = "map";
     desc.format = VK_FORMAT_R8G8B8A8_UNORM;
@@ -30,7 +31,8 @@ void main() {
     out_basis = gn_convolution_encode(depth, push_layer % groups, u.params.span);
 }
 )",
-                      .inputs = ShaderInputs().constant("GnConvolutionParams", "params", params)});
+                      .inputs = ShaderInputs().constant("GnConvolutionParams", "params", params),
+                      .tiles = views.tiles ? nullptr : &views});
     return basis;
 }
 
@@ -44,7 +46,7 @@ ShadowMap add_convolution(const FrameInput& input, const Recipe& recipe, const L
                                                     .height = views.resolution,
                                                     .layers = views.layers});
     add_caster_passes(input, recipe, views, {.depth = depth});
-    const TextureHandle basis = add_basis(input, depth, params);
+    const TextureHandle basis = add_basis(input, views, depth, params);
 
     // Blur and mipmap.
     return filtered_map(input, views, "waves", basis, params.prefilter);

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The resolution's law, its limit from frame to frame, and that a part of a map is as good as a map.
+#include "shadow/placement/perceptual/perceptual.glsl"
+#include "shadow/frame/history.h"
+#include "shadow/receiver/light_plane.glsl"
+#include "tests/warp_scene.h"
+
+#include <cmath>
+
+namespace gn {
+namespace {
+
+constexpr float c = 3.47F;
+
+/// K eq. 5.3 of a radius in texture space, 5.6 of one in the world, and the fitted map's: extents that shrink by s_xy take the
+/// resolution with them.
+TEST(Perceptual, ResolutionIsEquations53And56) {
+    for (const float r_uv : {0.01F, 0.03F, 0.2F}) {
+        EXPECT_FLOAT_EQ(glsl::gn_perceptual_texels(c, 1, r_uv, 0, 1e6F), c / r_uv);
+    }
+    const float l_ws = 40;
+    const float r_ws = 0.25F;
+    const float s_xy = 3;
+    EXPECT_FLOAT_EQ(glsl::gn_perceptual_texels(c, l_ws, r_ws, 0, 1e6F), c * l_ws / r_ws);
+    EXPECT_FLOAT_EQ(glsl::gn_perceptual_texels(c, l_ws / s_xy, r_ws, 0, 1e6F), c * l_ws / (r_ws * s_xy));
+    EXPECT_FLOAT_EQ(glsl::gn_perceptual_texels(c, l_ws, r_ws, 6, 1e6F), c * l_ws / r_ws + 12) << "the guard's texels";
+    // Double the filter, halve the map; without a filter all there is, and never more.
+    EXPECT_FLOAT_EQ(glsl::gn_perceptual_texels(c, l_ws, 2 * r_ws, 0, 1e6F), 0.5F * c * l_ws / r_ws);
+    EXPECT_EQ(glsl::gn_perceptual_texels(c, l_ws, 0, 3, 1024), 1024);
+    EXPECT_EQ(glsl::gn_perceptual_texels(c, l_ws, 1e-4F, 3, 1024), 1024);
+    EXPECT_EQ(glsl::gn_perceptual_blocks(64), 64);
+    EXPECT_EQ(glsl::gn_perceptual_blocks(64.5F), 72);
+}
+
+TEST(Perceptual, FollowsByAtMostItsShareOfItself) {
+    EXPECT_EQ(glsl::gn_perceptual_follow(800, 0, 0.25F), 800) << "nothing before";
+    EXPECT_EQ(glsl::gn_perceptual_follow(800, 400, 0.25F), 496) << "500, in whole blocks";
+    EXPECT_EQ(glsl::gn_perceptual_follow(80, 400, 0.25F), 320);
+    EXPECT_EQ(glsl::gn_perceptual_follow(424, 400, 0.25F), 424);
+    EXPECT_EQ(glsl::gn_perceptual_follow(800, 16, 0.25F), 24) << "a block where the share is less";
+    EXPECT_EQ(glsl::gn_perceptual_follow(16, 24, 0), 16);
+}
+
+/// Texels that the placement draws, and their sides on the light's plane.
+struct Drawn {
+    ivec2 texels;
+    dvec2 side;
+};
+Drawn drawn_of(const Scene& scene, const std::string& recipe) {
+    const LightViews views = test::place(scene, recipe);
+    const GnLightView& view = views.views.front();
+    const dvec2 texels = glm::round(dvec2(view.rect_ts.z, view.rect_ts.w) * static_cast<double>(view.resolution));
+    return {ivec2(texels), dvec2(glsl::gn_light_plane(view)) / texels};
+}
+
+/// eq. 5.4 and 5.6 of what is placed: a texel is the radius over c along both axes, but for the rounding to blocks of 8, and of
+/// a light with a position where the receivers are farthest.
+TEST(Perceptual, ATexelIsTheRadiusOverCAlongBothAxes) {
+    Scene scene = test::long_floor(2, 60, vec3(0.3F, 1, 0.2F));
+    scene.bounds_ws.min.x = -8;
+    scene.bounds_ws.max.x = 8;
+    for (const bool spot : {false, true}) {
+        GnLight& light = scene.lights[0].shape;
+        double farthest = 1;
+        if (spot) {
+            light.kind = GN_LIGHT_SPOT;
+            light.position_ws = vec4(0, 60, -30, 1);
+            light.direction_ws = vec4(0, -1, 0, 0);
+            light.cos_outer = std::cos(0.6F);
+            farthest = 60;
+        }
+        for (const double radius : {0.2, 0.4, 1.6}) {
+            const std::string recipe =
+                fmt::format("pcf,pcf.kernel=vogel,pcf.radius_world={},placement=perceptual,resolution=4096", radius);
+            const Drawn drawn = drawn_of(scene, recipe);
+            const double wanted = radius / farthest / static_cast<double>(c);
+            for (int axis = 0; axis < 2; ++axis) {
+                EXPECT_LE(drawn.side[axis], 1.003 * wanted) << spot << " " << radius << " axis " << axis;
+                const double block = 8.0 / drawn.texels[axis];
+                EXPECT_GE(drawn.side[axis], (0.997 - block) * wanted) << spot << " " << radius << " axis " << axis;
+            }
+            EXPECT_GT(std::abs(drawn.texels.x - drawn.texels.y), 8) << "the floor is longer than wide";
+            // A smaller c draws fewer.
+            const Drawn coarse = drawn_of(scene, recipe + ",perceptual.c=1.735");
+            EXPECT_LT(coarse.texels.x + coarse.texels.y, 0.7 * (drawn.texels.x + drawn.texels.y));
+        }
+    }
+    // A share of the scene's diagonal, for a kernel in texels.
+    scene = test::long_floor(2, 60);
+    const double diagonal = static_cast<double>(scene.bounds_ws.diagonal());
+    const Drawn share = drawn_of(scene, "perceptual,perceptual.radius=0.01,resolution=4096");
+    EXPECT_NEAR(share.side.x / (0.01 * diagonal / static_cast<double>(c)), 1, 8.0 / share.texels.x);
+}
+
+TEST(Perceptual, DrawsAllWhereTheFilterHasNoSize) {
+    const Scene scene = test::long_floor(2, 60);
+    EXPECT_EQ(drawn_of(scene, "hard,placement=perceptual,resolution=512").texels, ivec2(512));
+    EXPECT_EQ(test::place(scene, "hard,placement=perceptual,resolution=512").views[0].cs_from_ws,
+              test::place(scene, "hard,placement=fit,resolution=512").views[0].cs_from_ws);
+    const Part& part = find_part(Stage::placement, "perceptual");
+    EXPECT_NE(part.remark(scene, load_recipe("hard,placement=perceptual")), "");
+    EXPECT_EQ(part.remark(scene, load_recipe("perceptual")), "");
+    EXPECT_EQ(part.remark(scene, load_recipe("pcss,placement=perceptual")), "");
+}
+
+/// The same rectangle of a map of twice the side: V is the same to the bit, whatever is filtered, blurred or searched in it, and
+/// whatever lies beside it.
+TEST(PerceptualRendered, APartOfAMapIsAsGoodAsAMap) {
+    const test::ValidationGuard guard;
+    const Scene& scene = test::built_in("contact");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const FrameOptions options{.width = 96, .height = 64, .only_light = 0, .samples = false, .picture = false};
+    for (const std::string recipe :
+         {"pcf,pcf.kernel=vogel,pcf.radius=3.47", "vsm,vsm.blur=gaussian,vsm.radius=4",
+          "evsm4,evsm.blur=box,evsm.radius=3", "convolution,convolution.blur=box,convolution.radius=3",
+          "pcss,pcss.extremes=blocks"}) {
+        const auto drawn = [&](int resolution) {
+            return render_frame(test::device(), gpu, scene.camera(""),
+                                load_recipe(fmt::format("{},placement=perceptual,perceptual.radius=0.01,resolution={}",
+                                                        recipe, resolution)),
+                                options);
+        };
+        const FrameResult small = drawn(512);
+        const FrameResult large = drawn(1024);
+        EXPECT_EQ(small.visibility[0].values, large.visibility[0].values) << recipe;
+        const auto dark = std::count_if(small.visibility[0].values.begin(), small.visibility[0].values.end(),
+                                        [](float v) { return v < 0.5F; });
+        EXPECT_GT(dark, 50) << recipe;
+        ASSERT_FALSE(small.remarks.empty()) << "a single frame says what it draws";
+        EXPECT_NE(small.remarks.back().find("of 512 x 512 texels"), std::string::npos) << small.remarks.back();
+    }
+}
+
+/// K eq. 5.12: behind a half-plane before a rectangle all penumbrae have one width, half of it half_size (d_r - d_o) / d_o on the
+/// receiver; the next frame's texels are as large as that radius asks for.
+TEST(PerceptualRendered, PcssDrawsWhatItsSmallestFilterAsksFor) {
+    const test::ValidationGuard guard;
+    const Scene& scene = test::built_in("half-plane");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const GnLight& light = scene.lights[0].shape;
+    History history(test::device());
+    FrameOptions options{.width = 96, .height = 96, .only_light = 0, .samples = false, .picture = false};
+    options.history = &history;
+    const PreparedRecipe recipe(
+        test::device(),
+        load_recipe("pcss,placement=perceptual,visibility=smallest-radius,perceptual.least=0.00001,resolution=1024"));
+    for (int frame = 0; frame < 2; ++frame) {
+        static_cast<void>(render_frame(gpu, scene.camera(""), recipe, options));
+    }
+    const float found = std::bit_cast<float>(*history.answered("smallest filter of light 0"));
+
+    // The planes of receiver and occluder, from the light.
+    float receiver = 0;
+    float occluder = 1e30F;
+    for (const vec3& p_ws : scene.positions_ws) {
+        const float distance = glm::dot(p_ws - vec3(light.position_ws), vec3(light.direction_ws));
+        receiver = std::max(receiver, distance);
+        occluder = std::min(occluder, distance);
+    }
+    const float half_size = std::min(light.half_size.x, light.half_size.y);
+    const float radius = half_size * (receiver - occluder) / occluder / receiver;
+    // The bias moves receivers towards the light, which makes the penumbra that is looked for narrower, never wider.
+    EXPECT_LE(found, 1.005F * radius);
+    EXPECT_GE(found, 0.95F * radius);
+
+    // In time the resolution is there.
+    const ivec2* texels = nullptr;
+    for (int frame = 0; frame < 24; ++frame) {
+        static_cast<void>(render_frame(gpu, scene.camera(""), recipe, options));
+        const ivec2 before = texels != nullptr ? *texels : ivec2(0);
+        texels = history.before<ivec2>("perceptual texels of light 0 pcss");
+        ASSERT_NE(texels, nullptr);
+        if (before.x > 0) {
+            EXPECT_GE(texels->x, std::min(before.x - 8, static_cast<int>(before.x / 1.25F))) << frame;
+        }
+    }
+    const Guard reach = find_part(Stage::lookup, "pcss").guard(load_recipe("pcss"), scene.lights[0], scene.bounds_ws);
+    FrameGraph graph(test::device());
+    const LightViews fit = test::place(scene, "pcss,placement=fit,resolution=1024", 96, 96);
+    const float extent = glsl::gn_light_plane(fit.views[0]).x * (1 - 2 * (reach.texels + 1) / 1024);
+    EXPECT_NEAR(static_cast<float>(texels->x), c * extent / radius + 2 * (reach.texels + 1), 12);
+}
+
+}  // namespace
+}  // namespace gn
