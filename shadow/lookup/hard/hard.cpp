@@ -15,7 +15,10 @@ const Part& lookup_hard() {
         p.citation = "Wil78";
         p.needs = {"depth"};
         p.optional = {"ids"};
-        p.sides = {{"blocker-distance", "m", "How far along the light's depth what hides a sample lies before it."}};
+        p.sides = {
+            {"blocker-distance", "m", "How far along the light's depth what hides a sample lies before it."},
+            {"confidence", "", "How near the centre of its texel a sample lies: 1 at it, 0 at the texel's border."},
+            {"kernel-reach", "m", "How far around a sample, across the rays, casters change its V."}};
         p.glsl = "shadow/lookup/hard/hard.glsl";
         return p;
     }();

@@ -5,6 +5,7 @@
 #define GN_SHADOW_LOOKUP_HARD_GLSL
 
 #include "shadow/receiver/map_access.glsl"
+#include "shadow/receiver/confidence.glsl"
 
 #ifndef __cplusplus
 // Where a host draws ids, `ids` holds them; else nothing reads `ids`:
@@ -31,6 +32,10 @@ float gn_hard_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray
     ivec2 texel = ivec2(floor(at.projected.uv_ts / at.projected.texel_ts));
     return max(at.projected.depth - gn_map_texel(depth, at, texel).r, 0.0) * at.view.metres_per_depth;
 }
+
+// How near the texel's centre lies, and how far around the sample casters change its V.
+float gn_hard_confidence(GnLookup at, sampler2DArray depth, sampler2DArray ids) { return gn_confidence(at.projected); }
+float gn_hard_kernel_reach(GnLookup at, sampler2DArray depth, sampler2DArray ids) { return gn_kernel_reach(at.projected, at.bias); }
 #endif
 
 #endif

@@ -99,6 +99,9 @@ const Part& lookup_pcf() {
         p.citation = "RSC87";
         p.needs = {"depth"};
         p.optional = {"ids"};
+        p.sides = {
+            {"confidence", "", "How near the centre of its texel a sample lies: 1 at it, 0 at the texel's border."},
+            {"kernel-reach", "m", "How far around a sample, across the rays, casters change its V."}};
         p.params = rows();
         p.params_type = "GnPcfParams";
         p.glsl = "shadow/lookup/pcf/pcf.glsl";

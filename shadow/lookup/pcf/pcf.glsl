@@ -11,6 +11,7 @@
 #include "shadow/lookup/pcf/pcf.h"
 #include "shadow/receiver/noise.glsl"
 #include "shadow/receiver/map_access.glsl"
+#include "shadow/receiver/confidence.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -343,6 +344,10 @@ float gn_pcf_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids, G
     return GN_PCF_OVER_PIXEL ? gn_pcf_grid_over_pixel(at, depth, ids, params)
                              : gn_pcf_grid(at, depth, ids, params);
 }
+
+// How near the texel's centre lies, and how far around the sample casters change its V.
+float gn_pcf_confidence(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) { return gn_confidence(at.projected); }
+float gn_pcf_kernel_reach(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) { return gn_kernel_reach(at.projected, at.bias); }
 #endif
 
 #endif

@@ -69,7 +69,9 @@ const Part& lookup_pcss() {
             {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."},
             {"filter-radius", "m",
              "Radius of the filter at a sample on the light's plane: metres under a sun, else at a metre from the "
-             "light; 0 where no part of the light is hidden."}};
+             "light; 0 where no part of the light is hidden."},
+            {"confidence", "", "How near the centre of its texel a sample lies: 1 at it, 0 at the texel's border."},
+            {"kernel-reach", "m", "How far around a sample, across the rays, casters change its V."}};
         p.params = rows();
         p.params_type = "GnPcssParams";
         p.glsl = "shadow/lookup/pcss/pcss.glsl";

@@ -11,6 +11,7 @@
 #include "shadow/lookup/pcss/pcss.h"
 #include "shadow/lookup/pcss/pcss_tap.glsl"
 #include "shadow/receiver/light_plane.glsl"
+#include "shadow/receiver/confidence.glsl"
 
 #ifndef __cplusplus
 
@@ -110,6 +111,10 @@ float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray py
     float up = length(gn_on_light_plane(at.view, gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread)));
     return max(min(right, up), 1.0e-30);
 }
+
+// How near the texel's centre lies, and how far around the sample casters change its V.
+float gn_pcss_confidence(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) { return gn_confidence(at.projected); }
+float gn_pcss_kernel_reach(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) { return gn_kernel_reach(at.projected, at.bias); }
 #endif
 
 #endif
