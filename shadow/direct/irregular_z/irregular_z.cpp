@@ -51,7 +51,11 @@ Visibility add_irregular_z(const FrameInput& input, const Recipe& recipe) {
     const LightViews views = place_views(input, recipe);
 
     const HiddenSamples found = add_hidden_samples(input, recipe, views, params.lists == GN_IRREGULAR_TRIANGLES);
-    return add_resolve_hidden(input, found.hidden);
+    Visibility result = add_resolve_hidden(input, found.hidden);
+    if (holds(input.sides, "list-length")) {
+        result.sides.push_back({"list-length", add_list_lengths(input, recipe, views, found.lists, "irregular-z"), {}});
+    }
+    return result;
 }
 
 std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& recipe) {
@@ -86,6 +90,8 @@ const Part& direct_irregular_z() {
         p.params_type = "GnIrregularZParams";
         p.glsl = "shadow/direct/irregular_z/irregular_z.glsl";
         p.reads = {"placement", "resolution"};
+        p.sides = {
+            {"list-length", "", "View samples, or triangles, in the list of the texel that a sample falls into."}};
         p.add_direct = add_irregular_z;
         p.refuses = refuses;
         return p;

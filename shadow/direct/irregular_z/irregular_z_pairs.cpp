@@ -125,7 +125,48 @@ std::string with_rounding(const std::string& margin) {
     return (margin.empty() ? "" : margin + " + ") + std::string("0.00390625");
 }
 
+// How long the list of each sample's texel is.
+constexpr const char* lengths_text = R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(u.view.size.xy)))) {
+        return;
+    }
+    GnReceiver receiver;
+    uint length = 0u;
+    if (read_sample(pixel, receiver)) {
+        ivec3 texel = gn_irregular_z_texel(views[GN_CHOOSE(receiver, placement).first], receiver.p_ws);
+        for (uint node = texel.z >= 0 ? gn_list_first(texel) : 0u; node != 0u; node = gn_list_next(node)) {
+            ++length;
+        }
+    }
+    imageStore(lengths, pixel, vec4(float(length)));
+}
+)";
+
 }  // namespace
+
+TextureHandle add_list_lengths(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                               const TexelLists& lists, const std::string& name) {
+    const TextureHandle lengths = input.graph.create(TextureDesc{.name = name + " lengths",
+                                                                 .format = VK_FORMAT_R32_SFLOAT,
+                                                                 .width = input.samples.width,
+                                                                 .height = input.samples.height});
+    ShaderInputs inputs = sample_inputs(input, recipe, views);
+    add_lists(inputs, lists, ListAccess::read);
+    inputs.image("r32f", "writeonly", "image2D", "lengths", lengths);
+    const std::string defines = receiver_defines(recipe, views);
+    const std::string shared = sample_functions(input, recipe, views);
+    const Hasher key = hashed(inputs).text(defines).text(shared).text(views.part->id);
+    const auto shader = compute_once(input.prepared, name + ": lengths", key, [&] {
+        return defines + include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) +
+               include_line("shadow/direct/irregular_z/irregular_z.glsl") + inputs.text() + shared +
+               list_functions(ListAccess::read) + lengths_text;
+    });
+    add_pixel_pass(input.graph, name + ": lengths", inputs, shader, input.samples.width, input.samples.height);
+    return lengths;
+}
 
 TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                             const SamplePairs& pairs) {

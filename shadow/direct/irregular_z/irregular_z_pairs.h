@@ -27,6 +27,9 @@ struct SamplePairs {
 /// Asks all pairs; `inputs` say what it writes. Gives the lists that it made. Throws Refusal.
 TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                             const SamplePairs& pairs);
+/// R32F: of each view sample that counts, how many values its texel lists.
+TextureHandle add_list_lengths(const FrameInput& input, const Recipe& recipe, const LightViews& views,
+                               const TexelLists& lists, const std::string& name);
 
 /// What the light's centre is hidden from: a uint a view sample, by row and column, 0 where nothing hides it; and the lists of
 /// samples (or triangles) by which it was found.
