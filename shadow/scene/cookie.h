@@ -17,16 +17,20 @@ using glm::cross;
 using glm::sqrt;
 #endif
 
-/// Which lights may have one: those with a place and a way out of it. A spot's cone is narrower than a half space.
+/// Which lights may have one: those whose rays do not cross, with a way through the picture. A spot's cone is narrower than a half
+/// space. Rays of a rectangle cross at every place, into a half space: no picture is thrown by it.
 GN_FN bool gn_takes_cookie(GnLight light) {
-    return light.kind == uint(GN_LIGHT_POINT) || (light.kind == uint(GN_LIGHT_SPOT) && light.cos_outer > 0.0f);
+    return light.kind == uint(GN_LIGHT_POINT) || light.kind == uint(GN_LIGHT_DIRECTIONAL) ||
+           (light.kind == uint(GN_LIGHT_SPOT) && light.cos_outer > 0.0f);
 }
 
 /// Where the light through the picture meets p: texture coordinates from its upper left corner. A spot's picture fills the square around its outer
 /// cone, right and up as its right_ws and up_ws are across its direction; a point's is a map of longitude and latitude, the middle
-/// towards -z, the top upwards.
+/// towards -z, the top upwards. A sun's is thrown along its direction, twice half_size wide and high, metres, and lies beside itself
+/// without end; its middle falls on position_ws.
 GN_FN vec2 gn_cookie_place(GnLight light, vec3 p_ws) {
-    vec3 way_ws = normalize(p_ws - vec3(light.position_ws));
+    vec3 off_ws = p_ws - vec3(light.position_ws);
+    vec3 way_ws = normalize(off_ws);
     if (light.kind == uint(GN_LIGHT_POINT)) {
         return vec2(0.5f + atan(way_ws.x, -way_ws.z) / 6.2831853f, acos(clamp(way_ws.y, -1.0f, 1.0f)) / 3.14159265f);
     }
@@ -37,6 +41,10 @@ GN_FN vec2 gn_cookie_place(GnLight light, vec3 p_ws) {
     }
     right_ws = normalize(right_ws);
     vec3 up_ws = cross(right_ws, axis_ws);
+    if (light.kind == uint(GN_LIGHT_DIRECTIONAL)) {
+        return vec2(0.5f + 0.5f * dot(off_ws, right_ws) / light.half_size.x,
+                    0.5f - 0.5f * dot(off_ws, up_ws) / light.half_size.y);
+    }
     float slope = sqrt(1.0f - light.cos_outer * light.cos_outer) / light.cos_outer;
     float reach = 2.0f * slope * dot(way_ws, axis_ws);
     return vec2(0.5f + dot(way_ws, right_ws) / reach, 0.5f - dot(way_ws, up_ws) / reach);

@@ -135,6 +135,21 @@ void clean_vertices(Scene& scene) {
     }
 }
 
+// A sun's picture that has no size lies over the scene once.
+void complete_cookies(Scene& scene) {
+    for (Light& light : scene.lights) {
+        GnLight& shape = light.shape;
+        const bool sized = std::isfinite(shape.half_size.x) && std::isfinite(shape.half_size.y) &&
+                           shape.half_size.x > 0.0F && shape.half_size.y > 0.0F;
+        if (light.cookie < 0 || shape.kind != GN_LIGHT_DIRECTIONAL || sized) {
+            continue;
+        }
+        const Box bounds = bounds_without_strays(scene);
+        shape.half_size = vec2(bounds.empty() ? 0.5F : 0.5F * std::max(bounds.diagonal(), 1e-12F));
+        shape.position_ws = vec4(bounds.empty() ? vec3(0) : bounds.centre(), 0.0F);
+    }
+}
+
 // For scenes made in memory; loaders chose the origin before they rounded to float.
 void recentre(Scene& scene) {
     const Box bounds = bounds_without_strays(scene);
@@ -199,6 +214,7 @@ void finish_host_scene(Scene& scene) {
         scene.bounds_ws.grow(object.bounds_ws);
     }
     complete_lights(scene);
+    complete_cookies(scene);
     complete_casting(scene);
 }
 
@@ -232,6 +248,7 @@ void finish_scene(Scene& scene, const LoadOptions& options) {
     add_ground(scene, options.ground, automatic);
     add_default_sun(scene);
     complete_lights(scene);
+    complete_cookies(scene);
     complete_casting(scene);
 }
 

@@ -131,10 +131,12 @@ ShaderInputs inputs_of(const FrameInput& input, const ShadingPass& pass) {
         if (pass.lights[i].cookie >= 0) {
             const auto cookie = static_cast<std::size_t>(pass.lights[i].cookie);
             SamplerDesc sampler = linear();
-            // Longitudes go around; a cone has borders.
-            sampler.address = pass.lights[i].shape.kind == GN_LIGHT_POINT ? VK_SAMPLER_ADDRESS_MODE_REPEAT
-                                                                          : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-            sampler.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+            // Longitudes go around, and a sun's picture lies beside itself; a cone has borders.
+            const uint kind = pass.lights[i].shape.kind;
+            sampler.address =
+                kind == GN_LIGHT_SPOT ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : VK_SAMPLER_ADDRESS_MODE_REPEAT;
+            sampler.address_v =
+                kind == GN_LIGHT_DIRECTIONAL ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
             inputs.texture("sampler2D", fmt::format("cookie{}", i), input.handles.textures.at(cookie), sampler);
         }
     }

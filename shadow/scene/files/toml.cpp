@@ -147,14 +147,16 @@ int add_cookie(const TomlTable& table, const GnLight& shape, const Folder& folde
         return -1;
     }
     if (!gn_takes_cookie(shape)) {
-        fail("{}: key 'cookie' is of spots with outer_deg below 90 and of points; {} has none", table.where(),
-             light_kind_names.at(shape.kind));
+        fail("{}: key 'cookie' is of directional lights, of points and of spots with outer_deg below 90; {}",
+             table.where(),
+             shape.kind == GN_LIGHT_RECTANGLE ? "rays from a rectangle cross, so that it throws no picture"
+                                              : "this spot's cone is no narrower than a half space");
     }
     const std::string name = table.text("cookie", "");
     model.textures.push_back({.name = clean_text(name),
                               .image = decode_image(read_file(folder.resolve(name)), clean_text(name)),
-                              .repeat_u = shape.kind == GN_LIGHT_POINT,
-                              .repeat_v = false});
+                              .repeat_u = shape.kind != GN_LIGHT_SPOT,
+                              .repeat_v = shape.kind == GN_LIGHT_DIRECTIONAL});
     return static_cast<int>(model.textures.size()) - 1;
 }
 

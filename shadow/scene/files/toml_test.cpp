@@ -81,7 +81,12 @@ TEST(Toml, ALightsCookieIsATextureOfItsOwn) {
         }
         return std::string();
     };
-    EXPECT_NE(mistake("[[light]]\nkind = \"directional\"\ncookie = \"leaf.png\"\n").find("is of spots"),
+    EXPECT_NE(mistake("[[light]]\nkind = \"rectangle\"\nsize = [1, 1]\ncookie = \"leaf.png\"\n")
+                  .find("rays from a rectangle cross"),
+              std::string::npos);
+    EXPECT_NE(mistake("[[light]]\nkind = \"spot\"\nouter_deg = 95\ncookie = \"leaf.png\"\n").find("no narrower"),
+              std::string::npos);
+    EXPECT_NE(mistake("[[light]]\nkind = \"directional\"\ncookie = \"leaf.png\"\n").find("leaf.png"),
               std::string::npos);
     EXPECT_NE(mistake("[[light]]\nkind = \"spot\"\ncookie = \"leaf.png\"\n").find("leaf.png"), std::string::npos);
 }
