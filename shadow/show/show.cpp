@@ -157,7 +157,8 @@ Shown color_hidden(FrameGraph& graph, const Recipe& recipe, const Built& built, 
     const auto side = std::find_if(built.sides.begin(), built.sides.end(),
                                    [&](const Offer& offer) { return offer.name == picture.name; });
     GN_CHECK(side != built.sides.end());
-    return color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes), picture.sentence);
+    return color_side(read_image(graph, side->texture), read_image(graph, built.figures.sizes), picture.sentence,
+                      "magenta: in no light view, grey: no light arrives");
 }
 
 bool tells_all(const Part* direct, std::span<const std::string> names) {
@@ -188,7 +189,7 @@ std::vector<Shown> show_told(Device& device, SceneGpu& scene, const Camera& came
     graph.keep(samples.normal);
     graph.execute(false);
 
-    // No light view holds the samples; all that there are were asked.
+    // There is no light view that could miss a sample: all that see a surface are told of.
     const CpuSamples seen = read_samples(graph, samples);
     Image states(static_cast<int>(options.width), static_cast<int>(options.height), 4);
     for (std::size_t i = 0; i < seen.position_ws.size(); ++i) {
@@ -198,7 +199,8 @@ std::vector<Shown> show_told(Device& device, SceneGpu& scene, const Camera& came
     for (const std::string& name : names) {
         const Offer* side = told.find(name);
         GN_CHECK(side != nullptr);
-        shown.push_back(color_side(read_image(graph, side->texture), states, find_hidden(name).sentence));
+        shown.push_back(color_side(read_image(graph, side->texture), states, find_hidden(name).sentence,
+                                   "grey: no surface is seen"));
         shown.back().name = name;
     }
     return shown;

@@ -237,15 +237,13 @@ Shown color_bias(const Image& sizes) {
     return shown;
 }
 
-Shown color_side(const Image& side, const Image& sizes, std::string_view sentence) {
+Shown color_side(const Image& side, const Image& sizes, std::string_view sentence, std::string_view others) {
     Image figures = sizes;
     for (std::size_t i = 0; i < side.values.size(); ++i) {
         figures.values[4 * i] = side.values[i];
     }
     Shown shown = color_figures(figures, 0, side_scale());
-    shown.legend = fmt::format(
-        "{} From 0.01 (dark) over 1 (green) to 100 (yellow); magenta: in no light view, grey: no light arrives.",
-        sentence);
+    shown.legend = fmt::format("{} From 0.01 (dark) over 1 (green) to 100 (yellow); {}.", sentence, others);
     return shown;
 }
 

@@ -45,8 +45,8 @@ Shown color_choice(const Image& choice, std::span<const float> shade, const Ligh
 Shown color_texels(const Image& sizes);
 Shown color_undersampling(const Image& sizes);
 Shown color_bias(const Image& sizes);
-/// What a lookup told; `sizes` have each sample's state.
-Shown color_side(const Image& side, const Image& sizes, std::string_view sentence);
+/// What a part told; `sizes` have each sample's state, and `others` says what states without a figure are.
+Shown color_side(const Image& side, const Image& sizes, std::string_view sentence, std::string_view others);
 Shown color_map(const Image& tiles, const LayerTiles& layout, const TextureDesc& map, bool depth);
 Shown color_light(const Image& tiles, const LayerTiles& layout);
 

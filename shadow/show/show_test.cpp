@@ -258,6 +258,15 @@ std::size_t colors_of(const Image& picture) {
     return colors.size();
 }
 
+TEST(Show, WhatAPartWithoutAMapTellsSpeaksOfNoLightView) {
+    const Scene scene = load_scene("slab");
+    const Shown count = show(scene, "volumes", {"volume-count"}).front();
+    EXPECT_EQ(count.legend.find("light view"), std::string::npos) << count.legend;
+    EXPECT_NE(count.legend.find("grey: no surface"), std::string::npos) << count.legend;
+    const Shown blocker = show(scene, "pcss,resolution=64", {"blocker-distance"}).front();
+    EXPECT_NE(blocker.legend.find("magenta: in no light view"), std::string::npos) << blocker.legend;
+}
+
 TEST(Show, LayersShowWhatTheMapHolds) {
     const Scene& scene = test::built_in("corridor");
     for (const char* recipe : {"pcf,placement=cascades", "vsm,placement=cascades"}) {
