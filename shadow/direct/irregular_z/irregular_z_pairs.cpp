@@ -67,9 +67,13 @@ constexpr const char* wanted_text =
     "block_far[gn_block(block * ivec3(8, 8, 1))] != 0u";
 
 constexpr const char* walk_triangles = R"(
-        for (uint node = gn_list_first(texel); node != 0u; node = gn_list_next(node)) {
+        uint node = gn_list_first(texel);
+        for (; node != 0u; node = gn_list_next(node)) {
             uint triangle = gn_list_value(node);
             gn_pair(sample_index, receiver.p_ws, receiver.n_ws, triangle, gn_occluder(triangle), true);
+        }
+        if (node != 0u) {
+            atomicOr(walk_cut, 1u);
         }
 )";
 
@@ -231,8 +235,15 @@ TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const
     if (pairs.list_triangles) {
         ShaderInputs inputs = asked;
         add_lists(inputs, lists, ListAccess::read);
+        const BufferHandle cut =
+            input.graph.create(BufferDesc{.name = pairs.name + " samples cut", .bytes = sizeof(std::uint32_t)});
+        input.graph.add_pass(
+            pairs.name + ": none is cut", [&](PassBuilder& pass) { pass.copy_to(cut); },
+            [cut](Recorder& r) { r.fill(cut, 0); });
+        inputs.buffer("buffer", "WalkCut", "uint walk_cut;", cut);
         add_samples_pass(input, recipe, views, pairs.name + ": samples", inputs, includes,
                          functions + list_functions(ListAccess::read), walk_triangles);
+        tell_cut(input, pairs.name + ": samples", cut);
     }
     return lists;
 }
