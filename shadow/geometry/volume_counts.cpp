@@ -29,10 +29,16 @@ RasterDesc mark_pipeline(const VolumeMarks& marks, const ShaderInputs& inputs) {
 }
 
 ShaderInputs count_inputs(const FrameInput& input, const VolumeBuffers& buffers) {
-    ShaderInputs inputs = volume_side_inputs(input, buffers);
-    inputs.buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
+    ShaderInputs inputs = volume_side_inputs(buffers);
+    inputs.buffer("readonly buffer", "Indices", "uint indices[];", buffers.triangles)
         .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);
+    if (buffers.runs.valid()) {
+        inputs.buffer("readonly buffer", "First", "uint first[];", buffers.first)
+            .buffer("readonly buffer", "Around", "uint around[];", buffers.around)
+            .buffer("readonly buffer", "Runs", "uvec4 runs[];", buffers.runs)
+            .constant("uvec2", "picture", uvec2(input.samples.width, input.samples.height));
+    }
     return inputs;
 }
 
@@ -66,12 +72,12 @@ TextureHandle add_steps(const FrameInput& input, const VolumeBuffers& buffers, T
             if (marks != nullptr) {
                 marks->inputs.declare(pass);
             }
-            pass.vertices(input.handles.positions);
+            pass.vertices(buffers.positions);
             pass.indices(buffers.indices);
             pass.indirect(buffers.draws);
         },
         [inputs = drawn.inputs, steps = drawn.steps, mark, marking = marks != nullptr ? marks->inputs : ShaderInputs(),
-         draws = buffers.draws, indices = buffers.indices, positions = input.handles.positions](Recorder& r) {
+         draws = buffers.draws, indices = buffers.indices, positions = buffers.positions](Recorder& r) {
             if (mark != nullptr) {
                 r.bind(*mark);
                 r.stencil_reference(1);
@@ -91,7 +97,7 @@ StepPass counting_pass(const FrameInput& input, const VolumeBuffers& buffers, co
                        const VolumeMarks* marks, bool all_fragments) {
     ShaderInputs inputs = count_inputs(input, buffers);
     const StepOptions options{buffers.mode, gn_volumes_has_far_cap(buffers.frame), marks != nullptr && marks->alone,
-                              all_fragments};
+                              all_fragments, buffers.runs.valid()};
     const std::uint64_t key = hashed(inputs)
                                   .value(options.mode)
                                   .value(options.far_caps)
@@ -104,7 +110,7 @@ StepPass counting_pass(const FrameInput& input, const VolumeBuffers& buffers, co
 }
 
 StepPass silhouette_pass(const FrameInput& input, const VolumeBuffers& buffers) {
-    ShaderInputs inputs = volume_side_inputs(input, buffers);
+    ShaderInputs inputs = volume_side_inputs(buffers);
     auto steps = made_once(input.prepared, "volume silhouettes", hashed(inputs).finish().low,
                            [&] { return silhouette_steps(inputs); });
     return {"volumes: shown silhouettes", std::move(inputs), std::move(steps)};

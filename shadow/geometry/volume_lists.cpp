@@ -3,14 +3,11 @@
 // [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
 #include "gpu/shader_inputs.h"
-#include "gpu/upload.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/recipe/prepared.h"
-#include "shadow/scene/casting.h"
 
 #include <cmath>
-#include <map>
 
 namespace gn {
 
@@ -132,23 +129,12 @@ void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderIn
         });
 }
 
-// Which triangles cast, and which of them wear a mask.
-struct Casters {
-    std::vector<std::uint8_t> casts, masked;
-};
-Casters find_casters(const Scene& scene, const std::vector<CasterKind>& kinds, bool skip_masked) {
-    Casters found{std::vector<std::uint8_t>(scene.triangles.size(), 0),
-                  std::vector<std::uint8_t>(scene.triangles.size(), 0)};
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const bool masked = kinds[i] == CasterKind::masked;
-        const auto first = scene.objects[i].first_triangle, end = first + scene.objects[i].triangle_count;
-        const auto solid = is_single_sided(scene, scene.objects[i]) ? casts_from_its_front : casts_from_both_sides;
-        std::fill(found.casts.begin() + first, found.casts.begin() + end,
-                  kinds[i] == CasterKind::opaque || (masked && !skip_masked) ? solid : casts_nothing);
-        std::fill(found.masked.begin() + first, found.masked.begin() + end, masked ? 1 : 0);
-    }
-    return found;
+// Samples lie on the scene's surfaces, as casters do: no two are farther apart than its diagonal.
+float reach_of_volumes(const FrameInput& input) {
+    return is_orthographic(input.samples.camera) ? 1.01F * input.scene.bounds_ws.diagonal() : 0.0F;
 }
+
+}  // namespace
 
 // The rasterizer rounds vertices to a grid of 2^-bits pixels: an edge moves by half a step along each axis at most.
 // Twice that, so that rounding of the depths is covered too.
@@ -160,49 +146,22 @@ float pixel_metres(const ViewSamples& samples) {
     return static_cast<float>(2 * half_height_at(samples.camera, 1) / samples.height);
 }
 
-// Samples lie on the scene's surfaces, as casters do: no two are farther apart than its diagonal.
-float reach_of_volumes(const FrameInput& input) {
-    return is_orthographic(input.samples.camera) ? 1.01F * input.scene.bounds_ws.diagonal() : 0.0F;
+double rounding_metres(const FrameInput& input) {
+    const Camera& camera = input.samples.camera;
+    const Box& bounds = input.scene.bounds_ws;
+    const auto size = static_cast<double>(bounds.diagonal());
+    const double far = is_orthographic(camera) ? 1.0 : size + glm::distance(camera.position_ws, bounds.centre());
+    return 4.0 * snap_pixels(input.device) * pixel_metres(input.samples) * far + 1e-5 * size + 1e-30;
 }
-
-EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vector<CasterKind>& kinds,
-                              bool skip_masked) {
-    EdgeBuffers made;
-    const Casters found = find_casters(scene, kinds, skip_masked);
-    made.list = build_edges(scene.positions_ws, scene.triangles, found.casts);
-
-    // A triangle's owner is its component, and how its caps are drawn.
-    std::vector<std::uint32_t> owners(scene.triangles.size());
-    for (std::size_t t = 0; t < owners.size(); ++t) {
-        const std::uint32_t component = made.list.component_of[t];
-        const std::uint32_t masked = found.masked[t];
-        const std::uint32_t front = found.casts[t] == casts_from_its_front ? 1 : 0;
-        owners[t] =
-            component == EdgeList::no_component ? ~0U : component * 8 + masked * 4 + front * 2 + (masked | front);
-        made.opaque_triangles += (masked | front) == 0 ? 1 : 0;
-    }
-    made.edges = upload(device, "volume edges", made.list.edges);
-    made.first = upload(device, "volume edge starts", made.list.first);
-    made.around = upload(device, "volume edge triangles", made.list.around);
-    made.owners = upload(device, "volume triangle owners", owners);
-    return made;
-}
-
-// Lights that the same objects cast for share the edges.
-std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, bool skip_masked) {
-    const std::vector<CasterKind> kinds = caster_kinds(input);
-    return input.derive("volume edges", casters_key(input.scene, kinds) * 2 + (skip_masked ? 1 : 0),
-                        [&] { return make_edge_buffers(input.device, input.scene, kinds, skip_masked); });
-}
-
-}  // namespace
 
 VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions& options) {
     FrameGraph& graph = input.graph;
-    VolumeBuffers buffers{.scene = edge_buffers(input, options.skip_masked)};
+    VolumeBuffers buffers{.scene = edge_buffers(input, options)};
     buffers.mode = options.mode;
     const EdgeBuffers& scene = *buffers.scene;
     graph.hold(buffers.scene);
+    buffers.positions = scene.proxies ? graph.import(scene.proxies->positions) : input.handles.positions;
+    buffers.triangles = scene.proxies ? graph.import(scene.proxies->indices) : input.handles.indices;
     buffers.edges = graph.import(scene.edges);
     buffers.first = graph.import(scene.first);
     buffers.around = graph.import(scene.around);
@@ -213,6 +172,9 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
     buffers.forms = component_forms(scene.list.components, light, options, &input.samples.constants.cs_from_ws);
     buffers.forms.resize(std::max<std::size_t>(buffers.forms.size(), 1), GN_VOLUMES_NONE);
     const vec4 light_ws = light_point_ws(light);
+    if (options.covered) {
+        leave_out_covered(input, scene, options, buffers.forms);
+    }
     Box region;
     if (options.clamp) {
         region = volume_region(input);
@@ -221,7 +183,7 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
     buffers.frame = {.cs_from_ws = input.samples.constants.cs_from_ws,
                      .eye_ws = eye_of(input.samples.camera),
                      .light_ws = light_ws,
-                     .triangles = static_cast<uint>(input.scene.triangles.size()),
+                     .triangles = static_cast<uint>(scene.casts.size()),
                      .edges = static_cast<uint>(scene.list.edges.size()),
                      .opaque_triangles = scene.opaque_triangles,
                      .most_sides = static_cast<uint>(scene.list.around.size()),
@@ -241,6 +203,9 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
         graph.create(BufferDesc{.name = "volume cap indices", .bytes = VkDeviceSize{scene.opaque_triangles} * 24});
     buffers.sides = graph.create(BufferDesc{.name = "volume sides", .bytes = scene.list.around.size() * 4});
     buffers.draws = graph.create(BufferDesc{.name = "volume draws", .bytes = draw_words * sizeof(std::uint32_t)});
+    if (options.slices) {
+        add_volume_slices(input, buffers);
+    }
     return buffers;
 }
 
@@ -249,8 +214,8 @@ void add_facing(const FrameInput& input, const VolumeBuffers& buffers) {
         "volumes: empty lists", [&](PassBuilder& pass) { pass.copy_to(buffers.draws); },
         [draws = buffers.draws](Recorder& r) { r.fill(draws, 0); });
     ShaderInputs inputs;
-    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
-        .buffer("readonly buffer", "Indices", "uint indices[];", input.handles.indices)
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", buffers.positions)
+        .buffer("readonly buffer", "Indices", "uint indices[];", buffers.triangles)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners)
         .block("readonly buffer", "Forms", "uint forms[];", std::as_bytes(std::span(buffers.forms)))
         .buffer("writeonly buffer", "Multiplicity", "int multiplicity[];", buffers.multiplicity)

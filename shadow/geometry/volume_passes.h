@@ -3,22 +3,44 @@
 #pragma once
 
 #include "gpu/shader_inputs.h"
+#include "shadow/geometry/caster_proxies.h"
 #include "shadow/geometry/edges.h"
 #include "shadow/geometry/volumes.h"
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
+#include <deque>
 #include <memory>
 
 namespace gn {
 
 /// What lives as long as the frame's graph: a scene's edges on the GPU.
 struct EdgeBuffers {
+    /// What casts instead of the scene's triangles.
+    struct Proxies {
+        ProxyMesh mesh;
+        Buffer positions, indices;
+    };
+    std::shared_ptr<const Proxies> proxies;  ///< null: the scene's own cast
     EdgeList list;
-    std::uint32_t opaque_triangles = 0;
-    Buffer edges, first, around;  ///< as EdgeList
-    Buffer
-        owners;  ///< per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when either; ~0: it casts nothing
+    std::vector<std::uint8_t> casts;     ///< per triangle, as for build_edges
+    std::uint32_t opaque_triangles = 0;  ///< whose caps nothing is behind; all others are compared
+    Buffer edges, first, around;         ///< as EdgeList
+    /// Per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when its caps are compared; ~0: it casts nothing.
+    Buffer owners;
+    Buffer boxes;  ///< vec4[2] a component: the corners of its bounds, ws
+    /// What covered_components found for a light's place, and whatever else the key says: the latest first.
+    struct Covered {
+        std::uint64_t key = 0;
+        std::vector<std::uint8_t> components;
+    };
+    mutable std::deque<Covered> covered;
+    [[nodiscard]] std::span<const vec3> positions_ws(const Scene& scene) const {
+        return proxies ? std::span(proxies->mesh.positions_ws) : std::span(scene.positions_ws);
+    }
+    [[nodiscard]] std::span<const uvec3> triangles(const Scene& scene) const {
+        return proxies ? std::span(proxies->mesh.triangles) : std::span(scene.triangles);
+    }
 };
 
 /// The draws of a light, in words of the buffer `draws`. Sides, their strips and the compared caps (masked and one-sided
@@ -57,6 +79,9 @@ struct VolumeOptions {
     bool closed = true;        ///< solids cast with one half of their surface
     bool culling = true;       ///< components whose shadow cannot be seen are left out
     bool clamp = false;        ///< volumes end where no sample is beyond
+    bool slices = false;       ///< volumes are drawn where, by rows and columns of the picture, a sample may be in them
+    bool covered = false;      ///< components that stand wholly in another's shadow are left out
+    float proxies = 0.0F;      ///< share of their triangles that solids cast with, as bodies within them; 0: all
 };
 
 struct VolumeBuffers {
@@ -64,7 +89,9 @@ struct VolumeBuffers {
     VolumeMode mode = VolumeMode::behind;
     std::vector<std::uint32_t> forms;  ///< per component: GN_VOLUMES_*
     GnVolumesFrame frame;
+    BufferHandle positions, triangles;  ///< vec3 a vertex, three indices a triangle of what casts
     BufferHandle edges, first, around, owners;
+    BufferHandle runs;          ///< with VolumeOptions::slices: uvec4 a component, see GN_VOLUMES_SLICES; else invalid
     BufferHandle multiplicity;  ///< per triangle: -1, 0 or 1, + 4 where it is not 0 and counts before the sample
     BufferHandle
         caps;  ///< triangle * 2 + 1 when turned over, of compared caps, from both ends by side, behind opaque_triangles slots
@@ -77,8 +104,10 @@ struct VolumeBuffers {
 std::string volume_shader(const ShaderInputs& inputs, std::string_view text);
 extern const std::string_view side_body;
 /// What the sides' shader reads.
-ShaderInputs volume_side_inputs(const FrameInput& input, const VolumeBuffers& buffers);
+ShaderInputs volume_side_inputs(const VolumeBuffers& buffers);
 
+/// What is made of the scene once a geometry.
+std::shared_ptr<const EdgeBuffers> edge_buffers(const FrameInput& input, const VolumeOptions& options);
 /// The scene's edges (built once a geometry, uploaded once a graph) and this light's lists.
 VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions& options);
 /// How each component casts and counts for this light: GN_VOLUMES_* per component. `cs_from_ws` null: the view culls nothing,
@@ -93,11 +122,16 @@ std::uint32_t volume_end(const Box& caster, vec4 light_ws, const Box& region);
 /// Adds it to the forms of the components that count before the samples.
 void clamp_forms(std::span<const Component> components, vec4 light_ws, const Box& region,
                  std::span<std::uint32_t> forms);
-/// Whether the shadow of something in the box can fall on what the view sees and the light reaches; `cs_from_ws` null: what the
-/// light reaches anywhere. Never false where it does.
-bool may_shade_view(const Box& box, const GnLight& light, const mat4* cs_from_ws);
-/// Whether the shadow of something in the box can fall on the view's near rectangle; never false where it does.
-bool may_shade_near_plane(const Box& box, vec4 light_ws, const mat4& cs_from_ws);
+/// Makes GN_VOLUMES_NONE of the forms of components that stand wholly in another's shadow, worked out once a place of the light.
+void leave_out_covered(const FrameInput& input, const EdgeBuffers& scene, const VolumeOptions& options,
+                       std::span<std::uint32_t> forms);
+/// Finds for each component between which rows and columns of the picture samples may be in its volumes.
+void add_volume_slices(const FrameInput& input, VolumeBuffers& buffers);
+/// Pixels by which the rasterizer may move an edge, and what one pixel spans at a distance of 1 m, or everywhere (orthographic).
+float snap_pixels(Device& device);
+float pixel_metres(const ViewSamples& samples);
+/// More metres than rounding, of the rasterizer where the scene is farthest and of coordinates, moves anything; above 0.
+double rounding_metres(const FrameInput& input);
 /// Turns every triangle to the light and lists the caps.
 void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
 /// Sums the triangles around every edge and lists the sides.

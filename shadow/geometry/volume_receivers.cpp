@@ -17,9 +17,9 @@ std::string volume_shader(const ShaderInputs& inputs, std::string_view text) {
            std::string(text);
 }
 
-ShaderInputs volume_side_inputs(const FrameInput& input, const VolumeBuffers& buffers) {
+ShaderInputs volume_side_inputs(const VolumeBuffers& buffers) {
     ShaderInputs inputs;
-    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", input.handles.positions)
+    inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", buffers.positions)
         .buffer("readonly buffer", "Edges", "uvec2 edges[];", buffers.edges)
         .buffer("readonly buffer", "Sides", "uint sides[];", buffers.sides)
         .constant("GnVolumesFrame", "frame", buffers.frame);
@@ -94,7 +94,7 @@ TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffer
                                        .format = marks ? VK_FORMAT_D32_SFLOAT_S8_UINT : VK_FORMAT_D32_SFLOAT,
                                        .width = samples.width,
                                        .height = samples.height});
-    ShaderInputs inputs = volume_side_inputs(input, buffers);
+    ShaderInputs inputs = volume_side_inputs(buffers);
     add_gbuffer(inputs, input.device, samples);
     inputs.texture("sampler2D", "depth", lent(samples.depth, "depth"));
     const auto pipelines = made_once(input.prepared, "volume receivers", hashed(inputs).finish().low,

@@ -7,7 +7,11 @@ layout(constant_id = 0) const int STRIP = 0;
 layout(constant_id = 3) const int LISTED_BEFORE = 0;
 layout(location = 0) flat out vec3 a_ws;
 layout(location = 1) flat out vec3 b_ws;
+#ifdef GN_VOLUMES_RUNS
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[5]; };
+#else
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+#endif
 invariant gl_Position;
 
 vec4 end_ws(vec3 p_ws, bool far, uint plane) {
@@ -57,4 +61,11 @@ void main() {
                                          gn_view_position(u.frame.cs_from_ws, u.frame.light_ws));
     }
     gl_ClipDistance[0] = gn_volumes_beyond_near(gl_Position);
+#ifdef GN_VOLUMES_RUNS
+    uint component = owners[around[first[side >> 1]] >> 1] >> 3;
+    vec4 within = gn_volumes_within_run(runs[component], u.picture, gl_Position);
+    for (int i = 0; i < 4; ++i) {
+        gl_ClipDistance[i + 1] = within[i];
+    }
+#endif
 }

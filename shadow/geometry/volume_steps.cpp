@@ -42,7 +42,11 @@ constexpr const char* compared_text = R"(
 layout(constant_id = 3) const int LISTED_BEFORE = 0;
 layout(constant_id = 4) const int ON_NEAR = 0;
 layout(location = 0) flat out int turned;
+#ifdef GN_VOLUMES_RUNS
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[5]; };
+#else
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+#endif
 invariant gl_Position;
 void main() {
     uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
@@ -64,6 +68,12 @@ void main() {
     }
     gl_Position = corner_cs;
     gl_ClipDistance[0] = gn_volumes_beyond_near(gl_Position);
+#ifdef GN_VOLUMES_RUNS
+    vec4 within = gn_volumes_within_run(runs[owners[t] >> 3], u.picture, gl_Position);
+    for (int i = 0; i < 4; ++i) {
+        gl_ClipDistance[i + 1] = within[i];
+    }
+#endif
     // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
     // every opaque cap does.
     if ((owners[t] & 6u) == 2u &&
@@ -117,14 +127,17 @@ enum class At { all, marked, unmarked };
 /// LESS_OR_EQUAL, and before it is all else (volumes.md derives both).
 class Steps {
   public:
-    Steps(const ShaderInputs& inputs, bool all_fragments) : inputs_(inputs), all_fragments_(all_fragments) {}
+    Steps(const ShaderInputs& inputs, const StepOptions& options)
+        : inputs_(inputs), all_fragments_(options.all_fragments), sliced_(options.sliced) {}
 
     /// The sides and the compared caps of one list, counted before the samples or behind them.
     void add_compared(std::uint32_t listed, bool before, At at) {
         const VkCompareOp compare = before ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS_OR_EQUAL;
         const SpecConstants constants{{listed_before, listed}, {counts_before, before ? 1U : 0U}};
-        add({"volume-side.vert", side_body, count_text, compare, constants}, sides_draw + 4 * listed, at);
-        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants},
+        const bool sliced = sliced_ && listed == 1 && before;
+        add({"volume-side.vert", side_body, count_text, compare, constants, false, sliced}, sides_draw + 4 * listed,
+            at);
+        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants, false, sliced},
             compared_draw + 4 * listed, at);
     }
     /// The opaque caps of one list: no sample is behind them, so that they always count.
@@ -171,10 +184,13 @@ class Steps {
         VkCompareOp compare;
         SpecConstants constants;
         bool indexed = false;
+        bool sliced = false;
     };
     void add(const Shader& shader, std::uint32_t word, At at) {
         RasterDesc desc;
-        desc.vertex = {ShaderKind::vertex, std::string(shader.name), volume_shader(inputs_, shader.body)};
+        const std::string defines = shader.sliced ? "#define GN_VOLUMES_RUNS\n" : "";
+        desc.vertex = {ShaderKind::vertex, std::string(shader.name),
+                       volume_shader(inputs_, defines + std::string(shader.body))};
         desc.fragment =
             ShaderSource{ShaderKind::fragment, "volume-count.frag", all_fragments_ ? one_text : shader.count};
         desc.constants = shader.constants;
@@ -192,7 +208,7 @@ class Steps {
     }
 
     const ShaderInputs& inputs_;
-    bool all_fragments_;
+    bool all_fragments_, sliced_;
 };
 
 }  // namespace
@@ -209,7 +225,7 @@ StencilOps volume_stencil(VkCompareOp compare, VkStencilOp pass) {
 }
 
 std::vector<Step> count_steps(const ShaderInputs& inputs, const StepOptions& options) {
-    Steps steps(inputs, options.all_fragments);
+    Steps steps(inputs, options);
     const At at = options.alone ? At::marked : At::all;
     // What is listed as behind the samples, in any mode.
     steps.add_compared(0, false, at);
@@ -229,7 +245,7 @@ std::vector<Step> count_steps(const ShaderInputs& inputs, const StepOptions& opt
 }
 
 std::vector<Step> silhouette_steps(const ShaderInputs& inputs) {
-    Steps steps(inputs, true);
+    Steps steps(inputs, {.all_fragments = true});
     steps.add_silhouettes();
     return std::move(steps.list);
 }

@@ -19,6 +19,7 @@ struct StepOptions {
     bool far_caps = false;       ///< volumes have a cap at their far end
     bool alone = false;          ///< VolumeMarks::alone
     bool all_fragments = false;  ///< each fragment is one, wherever it lies
+    bool sliced = false;         ///< volumes that count before the samples are cut to their runs
 };
 /// In the order to draw them, for a pass whose count is blended.
 std::vector<Step> count_steps(const ShaderInputs& inputs, const StepOptions& options);

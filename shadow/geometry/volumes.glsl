@@ -11,6 +11,7 @@
 // A host whose device has doubles may ask for them:
 //   #define GN_VOLUMES_DOUBLE
 #ifdef __cplusplus
+using glm::abs;
 #define GN_VOLUMES_VEC3 glm::dvec3
 #define GN_VOLUMES_REAL double
 #elif defined(GN_VOLUMES_DOUBLE)
@@ -121,7 +122,50 @@ GN_FN vec4 gn_volumes_clamped(GnVolumesFrame frame, vec3 p_ws, uint plane) {
     float t = (bound - p_ws[axis]) / away_ws[axis];
     vec4 strip_ws = gn_volumes_strip(frame, p_ws, away_ws);
     vec3 least_ws = vec3(strip_ws) - p_ws;
-    return t > 0.0f && t * t * dot(away_ws, away_ws) > dot(least_ws, least_ws) ? vec4(p_ws + away_ws * t, 1.0f) : strip_ws;
+    return t > 0.0f && t * t * dot(away_ws, away_ws) > dot(least_ws, least_ws) ? vec4(p_ws + away_ws * t, 1.0f)
+                                                                               : strip_ws;
+}
+
+// Where a slice begins, pixels.
+GN_FN uint gn_volumes_slice(uint size, uint slice) {
+    return size * slice / uint(GN_VOLUMES_SLICES);
+}
+
+// How far a point lies within the run of slices, in clip space, on its left, right, upper and lower side. The planes between slices
+// pass through the eye and run between pixels: nothing is drawn along them, and no sample lies on them. [LWGM04] section 4.2
+GN_FN vec4 gn_volumes_within_run(uvec4 run, uvec2 size, vec4 p_cs) {
+    if (run.x == 0u) {
+        return vec4(-1.0f);
+    }
+    uint slices = uint(GN_VOLUMES_SLICES);
+    float left = 2.0f * float(gn_volumes_slice(size.x, slices - run.x)) / float(size.x) - 1.0f;
+    float right = 2.0f * float(gn_volumes_slice(size.x, run.y)) / float(size.x) - 1.0f;
+    float upper = 2.0f * float(gn_volumes_slice(size.y, slices - run.z)) / float(size.y) - 1.0f;
+    float lower = 2.0f * float(gn_volumes_slice(size.y, run.w)) / float(size.y) - 1.0f;
+    return vec4(p_cs.x - left * p_cs.w, right * p_cs.w - p_cs.x, p_cs.y - upper * p_cs.w, lower * p_cs.w - p_cs.y);
+}
+
+// Whether a ray to the light from somewhere between `from_ws` and `to_ws` may meet the box; never false where one does. On each axis the
+// places that the rays reach after a share u of the way lie between those of the two corners.
+GN_FN bool gn_volumes_may_hold(vec3 low_ws, vec3 high_ws, vec3 from_ws, vec3 to_ws, vec4 light_ws) {
+    float enter = 0.0f, leave = light_ws.w > 0.0f ? 1.0f : 3.0e38f;
+    for (int axis = 0; axis < 3; ++axis) {
+        // The least of them not beyond the box's upper side, the greatest not before its lower one: way * u <= room.
+        for (int end = 0; end < 2; ++end) {
+            float at = end == 0 ? from_ws[axis] : to_ws[axis];
+            float way = light_ws[axis] - light_ws.w * at;
+            way = end == 0 ? way : -way;
+            float room = end == 0 ? high_ws[axis] - at : at - low_ws[axis];
+            if (way > 0.0f) {
+                leave = room / way < leave ? room / way : leave;
+            } else if (way < 0.0f) {
+                enter = room / way > enter ? room / way : enter;
+            } else if (room < 0.0f) {
+                return false;
+            }
+        }
+    }
+    return enter <= leave;
 }
 
 // Whether the sample lies on the edge as far as the rasterizer can tell. A side that hangs from an edge of the sample's
@@ -137,7 +181,8 @@ GN_FN bool gn_volumes_touches(GnVolumesFrame frame, vec3 p_ws, vec3 n_ws, vec3 a
     // The edge lies in the surface's plane, but for the rounding of coordinates.
     float rounding = 5.0e-7f * (abs(p_ws.x) + abs(p_ws.y) + abs(p_ws.z));
     float height = abs(dot(n_ws, off)) - rounding;
-    return dot(off, off) * slant * slant <= reach * reach && (height <= 0.0f || height * height * distance2 <= reach * reach);
+    return dot(off, off) * slant * slant <= reach * reach &&
+           (height <= 0.0f || height * height * distance2 <= reach * reach);
 }
 
 #endif

@@ -18,6 +18,9 @@
 
 // Where its volumes end: 0 nowhere, else 1 plus the plane's number, low x, high x, low y, ... of GnVolumesFrame.
 #define GN_VOLUMES_PLANE_SHIFT 4
+// Rows and columns of the picture by which volumes may be cut. A component's run of them is a uvec4: slices minus the first column,
+// one plus the last, likewise rows; all 0 where no sample may be in its volumes.
+#define GN_VOLUMES_SLICES 16
 // Bits of a side's entry below its plane's: the edge, times 2, + 1 when turned over.
 #define GN_VOLUMES_SIDE_BITS 29
 

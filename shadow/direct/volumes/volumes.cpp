@@ -5,12 +5,13 @@
 // form of [EK02], all others take the general one of [KKJ08]; caps are ordered by what the view samples know
 // (volumes.md).
 //
-// Also here: volumes_modes_test.cpp, volumes_random_test.cpp, volumes_scenes_test.cpp. The passes stand in shadow/geometry.
+// Also here: volumes_culling_test.cpp, volumes_modes_test.cpp, volumes_random_test.cpp, volumes_scenes_test.cpp. The passes stand in shadow/geometry.
 #include "shadow/direct/volumes/volumes.h"
 
 #include "shadow/geometry/draw.h"
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/scene/casting.h"
+#include "shadow/scene/simplifier.h"
 
 namespace gn {
 namespace {
@@ -22,7 +23,11 @@ VolumeOptions options_of(const GnVolumesParams& params) {
             .skip_masked = params.masked != GN_VOLUMES_OPAQUE,
             .closed = params.closed != 0,
             .culling = params.culling != 0,
-            .clamp = params.clamp != 0};
+            .clamp = params.clamp != 0,
+            .slices = params.slices != 0,
+            // Where the camera is in shadow z-pass errs by how many volumes hold it: none is left out that would.
+            .covered = params.covered != 0 && params.mode != GN_VOLUMES_Z_PASS,
+            .proxies = params.proxies};
 }
 
 Visibility add_volumes(const FrameInput& input, const Recipe& recipe) {
@@ -54,7 +59,18 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
                 ? "volumes.masked=opaque: the masked polygons of this scene cast as a whole (exact reads their alpha)"
                 : "volumes.masked=skip: the masked polygons of this scene cast nothing (exact reads their alpha)";
     }
+    if (params.proxies > 0) {
+        said += said.empty() ? "" : "; ";
+        said += "volumes.proxies: solids cast the shadows of simpler bodies, which end too early (0 casts the solids)";
+    }
     return said;
+}
+
+std::string refuses(const Scene& /*scene*/, const Light& /*light*/, const Recipe& recipe) {
+    return recipe.of<GnVolumesParams>("volumes").proxies > 0 && simplifier() == nullptr
+               ? "volumes.proxies needs a library that simplifies meshes, which this program does not link "
+                 "(gnomon::gn_shadow does); 0 casts the solids themselves"
+               : "";
 }
 
 }  // namespace
@@ -89,13 +105,22 @@ const Part& direct_volumes() {
             GN_PARAM(GnVolumesParams, clamp, boolean, 0, 1, "",
                      "Ends volumes that are counted before the samples where no sample is beyond; off lets them run on "
                      "without end."),
+            GN_PARAM(GnVolumesParams, slices, boolean, 0, 1, "",
+                     "Cuts them by rows and columns of the picture too, where no sample between can be in them."),
             GN_PARAM(GnVolumesParams, culling, boolean, 0, 1, "",
                      "Leaves out components whose shadow neither the light nor the view can show; off draws them all."),
+            GN_PARAM(
+                GnVolumesParams, covered, boolean, 0, 1, "",
+                "Leaves out components that another hides from the light whole; off draws volumes within volumes."),
+            GN_PARAM(GnVolumesParams, proxies, real, 0, 0.99, "",
+                     "Share of their triangles with which solids cast, as simpler bodies within them: fewer sides, "
+                     "shadows a little too small; 0 casts the solids."),
         });
         p.params_type = "GnVolumesParams";
         p.glsl = "shadow/geometry/volumes.glsl";
         p.add_direct = add_volumes;
         p.remark = remark;
+        p.refuses = refuses;
         return p;
     }();
     return part;

@@ -22,7 +22,10 @@ struct GnVolumesParams {
     int masked GN_DEFAULT(GN_VOLUMES_EXACT);        ///< alpha-masked casters: their texels, whole polygons, or nothing
     int closed GN_DEFAULT(1);                       ///< 1: a solid casts with one side of its surface only
     int clamp GN_DEFAULT(1);                        ///< 1: volumes end where no sample is beyond
-    int culling GN_DEFAULT(1);                      ///< 1: components whose shadow cannot be seen are left out
+    int slices GN_DEFAULT(0);        ///< 1: volumes are drawn where, by rows and columns, samples may be in them
+    int culling GN_DEFAULT(1);       ///< 1: components whose shadow cannot be seen are left out
+    int covered GN_DEFAULT(1);       ///< 1: components that stand wholly in another's shadow are left out
+    float proxies GN_DEFAULT(0.0f);  ///< share of their triangles that solids cast with; 0: all
 };
 
 #endif
