@@ -232,9 +232,9 @@ TEST_P(IrregularZOfModels, HaveNoMismatch) {
     expect_exact(load_scene(file.string(), {.ground = {Ground::automatic}}), GetParam().file, 128, 96);
 }
 
-const Model models[] = {{"courtyard_zdm2", "courtyard_zdm2/courtyard_zdm2.glb"},
-                        {"kenney_city", "kenney_city/kenney_city.glb"},
-                        {"monobloc_chair", "chairs_table/plastic_monobloc_chair.glb"},
+const Model models[] = {{"courtyard_zdm2", "courtyard_zdm2/courtyard_zdm2.glb", true},
+                        {"kenney_city", "kenney_city/kenney_city.glb", true},
+                        {"monobloc_chair", "chairs_table/plastic_monobloc_chair.glb", true},
                         {"oak_chair", "chairs_table/oakChair/oakChair.obj"},
                         {"fence", "thin_structures/fence/fence.obj"},
                         {"clothes_horse", "thin_structures/clothes-horse/clothes-horse.obj"},
