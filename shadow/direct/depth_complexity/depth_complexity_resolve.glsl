@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Based on: Laine, Aila, Assarsson, Lehtinen, Akenine-Moller. Soft Shadow Volumes for Ray Tracing. ACM TOG 2005. [LAAL05]
+// Based on: Forest, Barthe, Paulin. Accurate Shadows by Depth Complexity Sampling. CGF 2008. [FBP08]
+// Counters become numbers of surfaces before the light's points, and these V: a pass over all samples.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+int counter_of(uint word, uint i) {
+    return gn_depth_unpacked(counters[word + i / GN_DEPTH_FIELDS], i % GN_DEPTH_FIELDS, GN_DEPTH_BITS);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(visibility)))) {
+        return;
+    }
+    vec4 at = gbuffer_position_texel(pixel);
+    vec3 p_ws = at.xyz;
+    vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
+    float v = 0.0;
+    int most = 0;
+    if (at.w > 0.5 && gn_counted(u.whole, p_ws, n_ws)) {
+        // Find the constant by the volumes of the references that hold the sample.
+        uint word = uint(pixel.y * imageSize(visibility).x + pixel.x) * u.words;
+        int least = 1 << 30;
+        for (uint i = 0u; i < u.samples; ++i) {
+            least = min(least, counter_of(word, i));
+        }
+        ivec3 votes = GN_DEPTH_VOTES;
+        // Near the horizon of the sample's surface, whose own edges end there, rounding decides: the highest reference speaks for
+        // those that are low.
+        vec3 heights = vec3(dot(n_ws, gn_towards(p_ws, u.reference0_ws)), dot(n_ws, gn_towards(p_ws, u.reference1_ws)),
+                            dot(n_ws, gn_towards(p_ws, u.reference2_ws)));
+        float highest = max(heights.x, max(heights.y, heights.z));
+        int best = heights.x == highest ? votes.x : heights.y == highest ? votes.y : votes.z;
+        votes = ivec3(heights.x > 0.25 * highest ? votes.x : best, heights.y > 0.25 * highest ? votes.y : best,
+                      heights.z > 0.25 * highest ? votes.z : best);
+        int constant = gn_depth_constant(votes, least);
+
+        // The points with nothing before them, above the surface, are seen.
+        GnSeenLight seen = gn_seen_light(u.light, p_ws);
+        vec3 x_ws = seen.x_ws / dot(seen.x_ws, seen.x_ws);
+        vec3 y_ws = seen.y_ws / dot(seen.y_ws, seen.y_ws);
+        bool sun = u.light.kind == uint(GN_LIGHT_DIRECTIONAL);
+        int lit = 0;
+        for (uint i = 0u; i < u.samples; ++i) {
+            int count = counter_of(word, i) + constant;
+            most = max(most, count);
+            vec3 to_point_ws = seen.centre_ws + x_ws * points[i].x + y_ws * points[i].y;
+            vec4 point_ws = sun ? vec4(to_point_ws, 0.0) : vec4(p_ws + to_point_ws, 1.0);
+            bool seen_point = count == 0 && dot(n_ws, to_point_ws) > 0.0;
+            lit += seen_point && !GN_DEPTH_MASKED(point_ws) ? 1 : 0;
+        }
+        v = float(lit) / float(u.samples);
+        vec4 centre_ws = sun ? vec4(seen.centre_ws, 0.0) : vec4(p_ws + seen.centre_ws, 1.0);
+        v = GN_DEPTH_MASKED_CENTRE(centre_ws) ? 0.0 : v;
+
+        // Counters that more edges touched than they hold may have wrapped.
+        float edges = edges_texel(pixel).r;
+        if (edges > u.limit) {
+            atomicAdd(crowded_samples, 1u);
+            atomicMax(crowded_edges, uint(edges));
+        }
+    }
+    imageStore(visibility, pixel, vec4(v));
+    GN_DEPTH_TELL
+}
