@@ -121,6 +121,7 @@ TEST_P(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
     // Of millions of samples some lie beside a shadow narrower than a pixel, which their neighbours do not tell, or on the border of a
     // triangle: volumes.md counts them.
     EXPECT_LE(static_cast<double>(wrong), 1e-5 * static_cast<double>(judged)) << wrong << " of " << judged;
+    EXPECT_EQ(places.elsewhere, 0U) << "neither a shadow's edge nor a triangle's explains them";
     if (test::thorough()) {
         fmt::print("{} of {} wrong: {} beside a shadow, {} on a triangle's border, {} elsewhere\n", wrong, judged,
                    places.by_shadow, places.on_triangle, places.elsewhere);
