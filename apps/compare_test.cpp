@@ -125,7 +125,7 @@ TEST(Compare, WritesAReportWhosePicturesAreThere) {
     const std::string mark = "<script type=\"application/json\" id=\"data\">";
     const std::size_t begin = page.find(mark) + mark.size();
     const json data = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-    ASSERT_EQ(data.at("runs").at(0).at("inside").size(), 5U);
+    ASSERT_EQ(data.at("runs").at(0).at("inside").size(), 6U);
     for (const json& shown : data.at("runs").at(0).at("inside")) {
         EXPECT_TRUE(file_text(folder / ("report/" + shown.at("picture").get<std::string>())).starts_with("\x89PNG"));
     }

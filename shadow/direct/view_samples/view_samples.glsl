@@ -25,10 +25,16 @@ struct GnSampledLight {
     int solid;  // 1: a sphere
 };
 
+// Products of three lengths, whose squares may be more than a float holds.
+GN_FN float gn_length_of_cubes(vec3 v) {
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return largest > 0.0f ? largest * length(v / largest) : 0.0f;
+}
+
 // The most that v changes from the light's middle to any of its points.
 GN_FN float gn_light_reach(GnSampledLight light, vec3 v) {
     vec3 along = vec3(dot(v, vec3(light.x_ws)), dot(v, vec3(light.y_ws)), dot(v, vec3(light.z_ws)));
-    return 0.5f * (light.square != 0 ? abs(along.x) + abs(along.y) : length(along));
+    return 0.5f * (light.square != 0 ? abs(along.x) + abs(along.y) : gn_length_of_cubes(along));
 }
 
 // A line across a flat light, or a plane through a sphere: the points with n . point + offset >= 0 are left of it.
@@ -42,7 +48,7 @@ struct GnLightLine {
 GN_FN GnLightLine gn_light_line(GnSampledLight light, vec3 edge, vec3 centre_from_p) {
     GnLightLine line;
     vec3 n = vec3(dot(edge, vec3(light.x_ws)), dot(edge, vec3(light.y_ws)), dot(edge, vec3(light.z_ws)));
-    line.size = length(n);
+    line.size = gn_length_of_cubes(n);
     float scale = line.size > 0.0f ? 1.0f / line.size : 0.0f;
     line.n = n * scale;
     line.offset = dot(edge, centre_from_p) * scale;
@@ -113,7 +119,9 @@ GN_FN GnHider gn_hider(GnSampledLight light, vec3 a_ws, vec3 b_ws, vec3 c_ws) {
     t.size = max(magnitude.x, max(magnitude.y, magnitude.z));
     float end = dot(t.n, vec3(light.centre_ws) - a_ws * light.centre_ws.w);
     float reach = gn_light_reach(light, t.n);
-    float rounding = 16.0f * gn_ulp * (light.centre_ws.w * (t.size + length(vec3(light.centre_ws))) + 1.0f);
+    // Of a sun `end` is a number, else a length.
+    float sizes = light.centre_ws.w > 0.0f ? t.size + length(vec3(light.centre_ws)) : 1.0f;
+    float rounding = 16.0f * gn_ulp * sizes;
     t.end_low = end - reach - rounding;
     t.end_high = end + reach + rounding;
     return t;

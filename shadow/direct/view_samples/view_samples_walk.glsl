@@ -127,7 +127,7 @@ uint tree_end(uint tree) {
 }
 
 layout(local_size_x = 64) in;
-#ifndef GN_REST
+#if !defined(GN_REST)
 layout(push_constant, scalar) uniform Push { uint first; uint count; int outward; } push;
 void main() {
     uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
