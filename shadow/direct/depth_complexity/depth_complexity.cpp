@@ -21,6 +21,7 @@
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/light_samples.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -46,14 +47,16 @@ struct Counters {
     BufferHandle buffer;                     ///< words of all view samples, row by row
 };
 
-/// Where the light's points are, seen on its plane: the same from everywhere, so that the light may stand at the origin.
+/// Where the light's points are, seen on its plane: the same from everywhere, so that the light may stand at the origin, and is seen
+/// from as far below as it is wide.
 vec2 on_plane(const GnLight& light, const GnLight& point) {
     GnLight here = light;
     here.position_ws = vec4(0, 0, 0, 1);
-    const vec3 below_ws(light.direction_ws);
-    const vec3 point_ws(light.kind == GN_LIGHT_DIRECTIONAL
-                            ? -point.direction_ws
-                            : point.position_ws - light.position_ws - light.direction_ws);
+    const bool sun = light.kind == GN_LIGHT_DIRECTIONAL;
+    const vec2 size = glsl::gn_light_half_size(light);
+    const vec3 below_ws = vec3(light.direction_ws) * (sun ? 1.0F : std::max(size.x, size.y));
+    const vec3 point_ws =
+        sun ? -vec3(point.direction_ws) : vec3(point.position_ws) - vec3(light.position_ws) - below_ws;
     return glsl::gn_on_light(glsl::gn_seen_light(here, below_ws), point_ws);
 }
 
