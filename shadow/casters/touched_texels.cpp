@@ -3,6 +3,7 @@
 #include "shadow/casters/touched_texels.h"
 
 #include "gpu/frame_graph.h"
+#include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -13,7 +14,6 @@
 namespace gn {
 namespace {
 
-constexpr std::uint32_t group = 64;
 /// Workgroups that share out the large triangles, and those of which one takes many.
 constexpr std::uint32_t large_groups = 256, huge_groups = 16, huge_shares = 32;
 
@@ -197,9 +197,7 @@ void add_touched_texels(const FrameInput& input, const LightViews& views, const 
             inputs.set(r);
             for (const TriangleRun& run : runs) {
                 r.push_value(run);
-                const std::uint32_t groups = std::max((run.count * count + group - 1) / group, 1U);
-                const std::uint32_t across = std::min(groups, 32768U);
-                r.dispatch(across, (groups + across - 1) / across);
+                dispatch_line(r, run.count * count);
             }
         });
     graph.add_pass(

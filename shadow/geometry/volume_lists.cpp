@@ -5,6 +5,7 @@
 #include "gpu/shader_inputs.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/volume_passes.h"
+#include "shadow/receiver/line_pass.h"
 #include "shadow/recipe/prepared.h"
 
 #include <cmath>
@@ -104,11 +105,6 @@ void main() {
 }
 )";
 
-void dispatch_all(Recorder& r, std::uint32_t count) {
-    const std::uint32_t groups = std::max((count + 63) / 64, 1U), across = std::min(groups, 32768U);
-    r.dispatch(across, (groups + across - 1) / across);
-}
-
 /// A pass with an invocation for each of `count` things.
 struct ListPass {
     const char* name;
@@ -120,13 +116,7 @@ void add_list_pass(const FrameInput& input, const ListPass& pass, const ShaderIn
         return std::string(pass.doubles ? "#define GN_VOLUMES_DOUBLE\n" : "") +
                "#include \"shadow/geometry/volumes.glsl\"\n" + inputs.text() + pass.text;
     });
-    input.graph.add_pass(
-        pass.name, [&](PassBuilder& builder) { inputs.declare(builder); },
-        [shader, inputs, count](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            dispatch_all(r, count);
-        });
+    add_line_pass(input.graph, pass.name, inputs, shader, count);
 }
 
 // Samples lie on the scene's surfaces, as casters do: no two are farther apart than its diagonal.

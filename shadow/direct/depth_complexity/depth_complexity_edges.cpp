@@ -3,6 +3,7 @@
 #include "shadow/direct/depth_complexity/depth_complexity_edges.h"
 
 #include "shadow/direct/depth_complexity/depth_complexity.glsl"
+#include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -74,15 +75,7 @@ VolumeBuffers add_light_silhouettes(const FrameInput& input, bool closed) {
     const auto shader = compute_once(input.prepared, "depth-complexity edges", hashed(inputs), [&] {
         return include_line("shadow/direct/depth_complexity/depth_complexity.glsl") + inputs.text() + list_text;
     });
-    graph.add_pass(
-        "depth-complexity: edges", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [shader, inputs, count = buffers.frame.edges](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            const std::uint32_t groups = std::max((count + 63) / 64, 1U);
-            const std::uint32_t across = std::min(groups, 32768U);
-            r.dispatch(across, (groups + across - 1) / across);
-        });
+    add_line_pass(graph, "depth-complexity: edges", inputs, shader, buffers.frame.edges);
     return found;
 }
 

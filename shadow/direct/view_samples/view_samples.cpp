@@ -14,6 +14,7 @@
 #include "shadow/direct/view_samples/view_samples_walk.h"
 #include "shadow/frame/frame.h"
 #include "shadow/placement/place.h"
+#include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -29,7 +30,7 @@ constexpr int most_points = 1024;  ///< of all patterns
 constexpr const char* horizon_text = R"(
 layout(local_size_x = 64) in;
 void main() {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (place >= used) {
         return;
     }
@@ -102,14 +103,7 @@ void add_horizon(const MappedSamples& m) {
     const std::string before = mapped_defines(m);
     const auto shader = compute_once(m.input.prepared, "view-samples: horizon", hashed(inputs).text(before),
                                      [&] { return before + inputs.text() + pattern_text + horizon_text; });
-    m.input.graph.add_pass(
-        "view-samples: horizon", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, groups = (m.sorted.pixels + 63) / 64](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            const std::uint32_t across = std::min(groups, 32768U);
-            r.dispatch(across, (groups + across - 1) / across);
-        });
+    add_line_pass(m.input.graph, "view-samples: horizon", inputs, shader, m.sorted.pixels);
 }
 
 Visibility add_resolve_points(const MappedSamples& m) {

@@ -3,6 +3,7 @@
 // Section 4: lists of view samples are compact, each behind the one before, by a running sum of their lengths.
 #include "shadow/direct/view_samples/view_samples_lists.h"
 
+#include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -41,7 +42,7 @@ void main() {
 constexpr const char* sums_text = R"(
 layout(local_size_x = 64) in;
 void main() {
-    uint run = gl_GlobalInvocationID.x;
+    uint run = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (run >= u.runs) {
         return;
     }
@@ -86,7 +87,7 @@ void main() {
 constexpr const char* cells_text = R"(
 layout(local_size_x = 64) in;
 void main() {
-    uint run = gl_GlobalInvocationID.x;
+    uint run = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (run >= u.runs) {
         return;
     }
@@ -133,7 +134,7 @@ constexpr const char* boxes_text = R"(
 layout(local_size_x = 64) in;
 void main() {
     uint above = 1u;
-    uint inner = gl_GlobalInvocationID.x;
+    uint inner = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     for (; above < 3u && inner >= u.places >> (2u * (u.below + above)); ++above) {
         inner -= u.places >> (2u * (u.below + above));
     }
@@ -161,21 +162,11 @@ void main() {
 
 constexpr std::uint32_t run = 128;  ///< texels that one invocation sums
 
-std::uint32_t groups_of(std::uint32_t invocations) {
-    return (invocations + 63) / 64;
-}
-
-void add_line_pass(const FrameInput& input, std::string name, const ShaderInputs& inputs, const std::string& includes,
-                   const char* text, std::uint32_t groups) {
+void add_run_pass(const FrameInput& input, std::string name, const ShaderInputs& inputs, const std::string& includes,
+                  const char* text, std::uint32_t count) {
     const auto shader = compute_once(input.prepared, name, hashed(inputs).text(includes),
                                      [&] { return includes + inputs.text() + text; });
-    input.graph.add_pass(
-        std::move(name), [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, shader, groups](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch(groups, 1);
-        });
+    add_line_pass(input.graph, std::move(name), inputs, shader, count);
 }
 
 /// The length of every texel's list, and every sample's place in its own.
@@ -206,11 +197,11 @@ void add_running_sum(const FrameInput& input, const SortedSamples& sorted, Buffe
     inputs.buffer("buffer", "Cells", "uint cells[];", cells)
         .buffer("buffer", "Sums", "uint sums[];", sums)
         .constant("uint", "runs", runs);
-    add_line_pass(input, "view-samples: sums", inputs, "", sums_text, groups_of(runs));
+    add_run_pass(input, "view-samples: sums", inputs, "", sums_text, runs);
     ShaderInputs whole = inputs;
     whole.buffer("buffer", "Used", "uint used;", sorted.used);
-    add_line_pass(input, "view-samples: running sum", whole, "", starts_text, 1);
-    add_line_pass(input, "view-samples: starts", inputs, "", cells_text, groups_of(runs));
+    add_run_pass(input, "view-samples: running sum", whole, "", starts_text, 1);
+    add_run_pass(input, "view-samples: starts", inputs, "", cells_text, runs);
 }
 
 void add_tree(const FrameInput& input, const SortedSamples& sorted, BufferHandle cells, const glsl::GnLightAxes& axes) {
@@ -237,8 +228,8 @@ void add_tree(const FrameInput& input, const SortedSamples& sorted, BufferHandle
             .constant("uint", "below", below)
             .constant("uint", "places", places);
         const std::uint32_t lowest = places >> (2 * below);
-        add_line_pass(input, "view-samples: boxes", boxes, includes, boxes_text,
-                      groups_of((lowest >> 2) + (lowest >> 4) + (lowest >> 6)));
+        add_run_pass(input, "view-samples: boxes", boxes, includes, boxes_text,
+                     (lowest >> 2) + (lowest >> 4) + (lowest >> 6));
     }
 }
 
