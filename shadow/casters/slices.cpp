@@ -3,6 +3,7 @@
 // Departs from it: slices are bits of a number that fragments add to, and become textures afterwards.
 #include "shadow/casters/slices.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/raster.h"
 
 namespace gn {
@@ -35,8 +36,7 @@ struct Push {
 BufferHandle add_no_bits(const FrameInput& input, const LightViews& views) {
     const VkDeviceSize texels = VkDeviceSize{views.resolution} * views.resolution * views.layers;
     const BufferHandle bits = input.graph.create({.name = "slice bits", .bytes = texels * sizeof(std::uint32_t)});
-    input.graph.add_pass(
-        "slices: empty", [&](PassBuilder& pass) { pass.copy_to(bits); }, [bits](Recorder& r) { r.fill(bits, 0); });
+    add_zeros(input.graph, "slices: empty", {bits});
     return bits;
 }
 

@@ -2,6 +2,7 @@
 // Based on: Yang, Hensley, Gruen, Thibieroz. Real-Time Concurrent Linked List Construction on the GPU. EGSR 2010. [YHGT10]
 #include "shadow/casters/texel_lists.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/frame/history.h"
 
 #include <algorithm>
@@ -40,16 +41,7 @@ TexelLists add_texel_lists(const FrameInput& input, const std::string& name, uve
     lists.heads = graph.create({.name = name + " heads", .bytes = texels * sizeof(std::uint32_t)});
     lists.nodes = graph.create({.name = name + " nodes", .bytes = VkDeviceSize{lists.capacity} * sizeof(uvec2)});
     lists.used = graph.create({.name = name + " used", .bytes = sizeof(std::uint32_t)});
-    graph.add_pass(
-        name + ": empty",
-        [&](PassBuilder& pass) {
-            pass.copy_to(lists.heads);
-            pass.copy_to(lists.used);
-        },
-        [lists](Recorder& r) {
-            r.fill(lists.heads, 0);
-            r.fill(lists.used, 0);
-        });
+    add_zeros(graph, name + ": empty", {lists.heads, lists.used});
 
     // What they needed comes back after the frame.
     graph.answer(

@@ -3,6 +3,7 @@
 #include "shadow/casters/touched_texels.h"
 
 #include "gpu/frame_graph.h"
+#include "gpu/zeros_pass.h"
 #include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -180,16 +181,7 @@ void add_touched_texels(const FrameInput& input, const LightViews& views, const 
         key.value(touched.alone).text(touched.margin).text(touched.wanted);
         return compute_once(input.prepared, touched.name + what, key, [&] { return text_of(touched, inputs, main); });
     };
-    graph.add_pass(
-        touched.name + ": none are large",
-        [&](PassBuilder& pass) {
-            pass.copy_to(large);
-            pass.copy_to(cut);
-        },
-        [large, cut](Recorder& r) {
-            r.fill(large, 0);
-            r.fill(cut, 0);
-        });
+    add_zeros(graph, touched.name + ": none are large", {large, cut});
     graph.add_pass(
         touched.name, [&](PassBuilder& pass) { inputs.declare(pass); },
         [inputs, count, runs = touched.runs, shader = shader("", small_main)](Recorder& r) {

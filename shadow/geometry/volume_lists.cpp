@@ -3,6 +3,7 @@
 // [EK02] Based on: Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. JGT 2008.
 // [KKJ08] The lists of a light: which triangles are caps, which edges are sides.
 #include "gpu/shader_inputs.h"
+#include "gpu/zeros_pass.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/receiver/line_pass.h"
@@ -200,9 +201,7 @@ VolumeBuffers import_volume_buffers(const FrameInput& input, const VolumeOptions
 }
 
 void add_facing(const FrameInput& input, const VolumeBuffers& buffers) {
-    input.graph.add_pass(
-        "volumes: empty lists", [&](PassBuilder& pass) { pass.copy_to(buffers.draws); },
-        [draws = buffers.draws](Recorder& r) { r.fill(draws, 0); });
+    add_zeros(input.graph, "volumes: empty lists", {buffers.draws});
     ShaderInputs inputs;
     inputs.buffer("readonly buffer", "Positions", "vec3 positions[];", buffers.positions)
         .buffer("readonly buffer", "Indices", "uint indices[];", buffers.triangles)

@@ -2,6 +2,7 @@
 // Based on: Lloyd, Wendt, Govindaraju, Manocha. CC Shadow Volumes. EGSR 2004. [LWGM04] section 4.2, discrete shadow clamping
 // Departs from it: slices are rows and columns of the picture, a volume is cut to the first and the last of either that may matter to
 // it, and what lies in a slice is a box of its samples, where the paper asks occlusion queries for each slice.
+#include "gpu/zeros_pass.h"
 #include "shadow/geometry/volume_passes.h"
 #include "shadow/geometry/volumes.glsl"
 #include "shadow/receiver/sample_pass.h"
@@ -99,16 +100,7 @@ void add_volume_slices(const FrameInput& input, VolumeBuffers& buffers) {
     const VkDeviceSize tile_bytes = VkDeviceSize{GN_VOLUMES_SLICES} * GN_VOLUMES_SLICES * 6 * sizeof(std::uint32_t);
     const BufferHandle boxes = input.graph.create(BufferDesc{.name = "volume tile boxes", .bytes = tile_bytes});
     buffers.runs = input.graph.create(BufferDesc{.name = "volume runs", .bytes = components * sizeof(uvec4)});
-    input.graph.add_pass(
-        "volumes: no tiles",
-        [&](PassBuilder& pass) {
-            pass.copy_to(boxes);
-            pass.copy_to(buffers.runs);
-        },
-        [boxes, runs = buffers.runs](Recorder& r) {
-            r.fill(boxes, 0);
-            r.fill(runs, 0);
-        });
+    add_zeros(input.graph, "volumes: no tiles", {boxes, buffers.runs});
     const auto add = [&](const char* name, const char* text, const ShaderInputs& inputs, uvec2 groups) {
         const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
             return include_line("shadow/scene/light.h") + include_line("shadow/geometry/volumes.glsl") + inputs.text() +

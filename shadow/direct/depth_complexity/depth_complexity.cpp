@@ -10,6 +10,7 @@
 // Also here: depth_complexity_edges.h, depth_complexity_edges.cpp, depth_complexity_edge.glsl, depth_complexity_resolve.glsl.
 #include "shadow/direct/depth_complexity/depth_complexity.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/direct/depth_complexity/depth_complexity_edges.h"
 #include "shadow/frame/frame.h"
 #include "shadow/geometry/caster_geometry.h"
@@ -132,9 +133,7 @@ void add_empty(const FrameInput& input, Counters& counters) {
             input.samples.height, input.device.info().name, most);
     }
     counters.buffer = input.graph.create(BufferDesc{.name = "depth-complexity counters", .bytes = bytes});
-    input.graph.add_pass(
-        "depth-complexity: none", [&](PassBuilder& pass) { pass.copy_to(counters.buffer); },
-        [buffer = counters.buffer](Recorder& r) { r.fill(buffer, 0); });
+    add_zeros(input.graph, "depth-complexity: none", {counters.buffer});
 }
 
 /// Lets the edges count; gives how many surfaces begin or end before each sample's light.
@@ -183,9 +182,7 @@ std::vector<TextureHandle> add_references(const FrameInput& input, const Counter
 BufferHandle add_crowded(const FrameInput& input) {
     const BufferHandle crowded =
         input.graph.create(BufferDesc{.name = "depth-complexity crowded", .bytes = 2 * sizeof(std::uint32_t)});
-    input.graph.add_pass(
-        "depth-complexity: none is crowded", [&](PassBuilder& pass) { pass.copy_to(crowded); },
-        [crowded](Recorder& r) { r.fill(crowded, 0); });
+    add_zeros(input.graph, "depth-complexity: none is crowded", {crowded});
     return crowded;
 }
 void tell_crowded(const FrameInput& input, const Counters& counters, BufferHandle crowded) {

@@ -2,6 +2,7 @@
 // Based on: Laine, Aila, Assarsson, Lehtinen, Akenine-Moller. Soft Shadow Volumes for Ray Tracing. ACM TOG 2005. [LAAL05]
 #include "shadow/direct/depth_complexity/depth_complexity_edges.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/direct/depth_complexity/depth_complexity.glsl"
 #include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/sample_pass.h"
@@ -51,9 +52,7 @@ VolumeBuffers add_light_silhouettes(const FrameInput& input, bool closed) {
                                           .bytes = buffers.scene->list.around.size() * sizeof(std::uint32_t)});
     found.draws =
         graph.create(BufferDesc{.name = "depth-complexity draws", .bytes = draw_words * sizeof(std::uint32_t)});
-    graph.add_pass(
-        "depth-complexity: no edges", [&](PassBuilder& pass) { pass.copy_to(found.draws); },
-        [draws = found.draws](Recorder& r) { r.fill(draws, 0); });
+    add_zeros(graph, "depth-complexity: no edges", {found.draws});
 
     const GnLight& light = input.light().shape;
     const vec2 size = glsl::gn_light_half_size(light);

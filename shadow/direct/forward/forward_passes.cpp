@@ -2,6 +2,7 @@
 // Based on: Zhang. Forward Shadow Mapping. Eurographics Workshop on Rendering 1998. [Zha98]
 #include "shadow/direct/forward/forward_passes.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/frame/frame.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
@@ -89,9 +90,7 @@ BufferHandle add_forward_splats(const FrameInput& input, const Recipe& recipe, c
                                 TextureHandle depth, BufferHandle samples, const GnForwardParams& params) {
     const BufferHandle light =
         input.graph.create(BufferDesc{.name = "forward light", .bytes = pixels(input.samples) * sizeof(std::uint32_t)});
-    input.graph.add_pass(
-        "forward: darkness", [&](PassBuilder& pass) { pass.copy_to(light); },
-        [light](Recorder& r) { r.fill(light, 0); });
+    add_zeros(input.graph, "forward: darkness", {light});
     ShaderInputs inputs;
     inputs.texture("sampler2DArray", "depth_map", depth);
     add_views(inputs, views);

@@ -3,6 +3,7 @@
 // [JLBM05]
 #include "shadow/direct/irregular_z/irregular_z_pairs.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/touched_texels.h"
 #include "shadow/geometry/occluders.h"
 #include "shadow/receiver/pixel_pass.h"
@@ -194,9 +195,7 @@ TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const
         ShaderInputs inputs;
         add_lists(inputs, lists, ListAccess::add);
         inputs.buffer("buffer", "BlockFar", "uint block_far[];", block_far).constant("uint", "blocks", blocks);
-        input.graph.add_pass(
-            pairs.name + ": blocks", [&](PassBuilder& builder) { builder.copy_to(block_far); },
-            [block_far](Recorder& r) { r.fill(block_far, 0); });
+        add_zeros(input.graph, pairs.name + ": blocks", {block_far});
         add_samples_pass(input, recipe, views, pairs.name + ": lists", inputs, "",
                          list_functions(ListAccess::add) + block_text, add_sample);
     }
@@ -237,9 +236,7 @@ TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const
         add_lists(inputs, lists, ListAccess::read);
         const BufferHandle cut =
             input.graph.create(BufferDesc{.name = pairs.name + " samples cut", .bytes = sizeof(std::uint32_t)});
-        input.graph.add_pass(
-            pairs.name + ": none is cut", [&](PassBuilder& pass) { pass.copy_to(cut); },
-            [cut](Recorder& r) { r.fill(cut, 0); });
+        add_zeros(input.graph, pairs.name + ": none is cut", {cut});
         inputs.buffer("buffer", "WalkCut", "uint walk_cut;", cut);
         add_samples_pass(input, recipe, views, pairs.name + ": samples", inputs, includes,
                          functions + list_functions(ListAccess::read), walk_triangles);
@@ -254,9 +251,7 @@ HiddenSamples add_hidden_samples(const FrameInput& input, const Recipe& recipe, 
     HiddenSamples found;
     const VkDeviceSize bytes = VkDeviceSize{input.samples.width} * input.samples.height * sizeof(std::uint32_t);
     found.hidden = input.graph.create(BufferDesc{.name = "irregular-z hidden", .bytes = bytes});
-    input.graph.add_pass(
-        "irregular-z: light", [&](PassBuilder& pass) { pass.copy_to(found.hidden); },
-        [hidden = found.hidden](Recorder& r) { r.fill(hidden, 0); });
+    add_zeros(input.graph, "irregular-z: light", {found.hidden});
 
     // Every triangle hides the light from the samples that it hides it from.
     SamplePairs pairs{.name = "irregular-z",

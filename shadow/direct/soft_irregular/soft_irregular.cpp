@@ -10,6 +10,7 @@
 // (what an edge hides), shadow/placement/place (the lists are placed as maps are)
 #include "shadow/direct/soft_irregular/soft_irregular.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/touched_texels.h"
 #include "shadow/direct/irregular_z/irregular_z_pairs.h"
 #include "shadow/frame/frame.h"
@@ -83,16 +84,7 @@ EdgeSums add_edge_sums(const FrameInput& input, const LightViews& views, const T
     const VkDeviceSize samples = VkDeviceSize{input.samples.width} * input.samples.height;
     const EdgeSums made{input.graph.create(BufferDesc{.name = "soft-irregular sums", .bytes = samples * 8}),
                         input.graph.create(BufferDesc{.name = "soft-irregular cut", .bytes = sizeof(std::uint32_t)})};
-    input.graph.add_pass(
-        "soft-irregular: light",
-        [&](PassBuilder& pass) {
-            pass.copy_to(made.sums);
-            pass.copy_to(made.cut);
-        },
-        [made](Recorder& r) {
-            r.fill(made.sums, 0);
-            r.fill(made.cut, 0);
-        });
+    add_zeros(input.graph, "soft-irregular: light", {made.sums, made.cut});
 
     // Draw what each edge may hide light from, over the texels.
     const std::string functions = list_functions(ListAccess::read);

@@ -11,6 +11,7 @@
 // view_samples_walk.cpp, view_samples_walk.glsl.
 #include "shadow/direct/view_samples/view_samples.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/direct/view_samples/view_samples_walk.h"
 #include "shadow/frame/frame.h"
 #include "shadow/placement/place.h"
@@ -182,9 +183,7 @@ Visibility add_view_samples_part(const FrameInput& input, const Recipe& recipe) 
     m.hidden = create("view-samples hidden", VkDeviceSize{m.sorted.pixels} * m.words);
     if (holds(input.sides, "asked-triangles")) {
         m.asked = create("view-samples asked", m.sorted.pixels);
-        input.graph.add_pass(
-            "view-samples: none asked", [&](PassBuilder& pass) { pass.copy_to(m.asked); },
-            [asked = m.asked](Recorder& r) { r.fill(asked, 0); });
+        add_zeros(input.graph, "view-samples: none asked", {m.asked});
     }
     add_horizon(m);
 

@@ -3,6 +3,7 @@
 // Section 4: lists of view samples are compact, each behind the one before, by a running sum of their lengths.
 #include "shadow/direct/view_samples/view_samples_lists.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
@@ -172,9 +173,7 @@ void add_run_pass(const FrameInput& input, std::string name, const ShaderInputs&
 /// The length of every texel's list, and every sample's place in its own.
 void add_counts(const FrameInput& input, const Recipe& recipe, const LightViews& views, const SortedSamples& sorted,
                 BufferHandle cells, std::uint32_t bits) {
-    input.graph.add_pass(
-        "view-samples: no lists", [&](PassBuilder& pass) { pass.copy_to(cells); },
-        [cells](Recorder& r) { r.fill(cells, 0); });
+    add_zeros(input.graph, "view-samples: no lists", {cells});
     ShaderInputs inputs = sample_inputs(input, recipe, views);
     inputs.buffer("buffer", "Cells", "uint cells[];", cells)
         .buffer("writeonly buffer", "Entries", "uvec2 entries[];", sorted.entries)

@@ -3,6 +3,7 @@
 #include "shadow/direct/view_samples/view_samples_walk.h"
 
 #include "gpu/upload.h"
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/solids.h"
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/geometry/occluders.h"
@@ -137,16 +138,7 @@ RestOfWalks add_rest(const MappedSamples& m, const std::string& name, ShaderInpu
     };
     const RestOfWalks rest{create(" rest", VkDeviceSize{2} * RestOfWalks::most), create(" rests", 1),
                            create(" cut", 1)};
-    m.input.graph.add_pass(
-        name + ": begin",
-        [&](PassBuilder& pass) {
-            pass.copy_to(rest.used);
-            pass.copy_to(rest.cut);
-        },
-        [rest](Recorder& r) {
-            r.fill(rest.used, 0);
-            r.fill(rest.cut, 0);
-        });
+    add_zeros(m.input.graph, name + ": begin", {rest.used, rest.cut});
     inputs.buffer("buffer", "Rest", "uvec2 rest[];", rest.entries)
         .buffer("buffer", "RestUsed", "uint rest_used;", rest.used)
         .buffer("buffer", "WasCut", "uint was_cut;", rest.cut)

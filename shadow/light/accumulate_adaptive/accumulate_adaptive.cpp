@@ -9,6 +9,7 @@
 // Also here: light_tree.h, light_tree.cpp.
 #include "shadow/light/accumulate_adaptive/accumulate_adaptive.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/frame/history.h"
 #include "shadow/light/accumulate_adaptive/light_tree.h"
 #include "shadow/light/weighted.h"
@@ -141,9 +142,7 @@ void begin_watch(const FrameInput& input, Watched& watched, const LatestTree& la
                                    .layers = static_cast<std::uint32_t>(watched.tree.levels)});
     watched.disagree =
         graph.create({.name = "light disagree", .bytes = watched.tree.divided.size() * sizeof(std::uint32_t)});
-    graph.add_pass(
-        "light: nobody disagrees", [&](PassBuilder& pass) { pass.copy_to(watched.disagree); },
-        [disagree = watched.disagree](Recorder& r) { r.fill(disagree, 0); });
+    add_zeros(graph, "light: nobody disagrees", {watched.disagree});
     graph.answer(watched.disagree, [latest, tree = watched.tree](std::span<const std::byte> bytes) {
         SeenTree seen{tree, std::vector<std::uint32_t>(tree.divided.size())};
         std::memcpy(seen.disagree.data(), bytes.data(), seen.disagree.size() * sizeof(std::uint32_t));

@@ -8,6 +8,7 @@
 // and counted as they came: no texel is hit twice or missed, and counts are what a receiver there would count.
 #include "shadow/map/layered_attenuation/layered_attenuation.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/point_maps.h"
 #include "shadow/casters/raster.h"
 #include "shadow/receiver/sample_pass.h"
@@ -164,9 +165,7 @@ void add_left_out(const FrameInput& input, const Recipe& recipe, const LightView
     }
     const TextureHandle behind = add_surfaces(input, recipe, views, last).surface;
     const BufferHandle left = input.graph.create({.name = "layers left out", .bytes = sizeof(std::uint32_t)});
-    input.graph.add_pass(
-        "layers: none left out", [&](PassBuilder& pass) { pass.copy_to(left); },
-        [left](Recorder& r) { r.fill(left, 0); });
+    add_zeros(input.graph, "layers: none left out", {left});
     ShaderInputs inputs = view_list(views);
     inputs.texture("sampler2DArray", "surfaces", behind);
     inputs.buffer("buffer", "Left", "uint left_out;", left);

@@ -4,6 +4,7 @@
 //
 // Based on: Lauritzen, McCool. Layered Variance Shadow Maps. Graphics Interface 2008. [LM08]
 #include "gpu/shader_inputs.h"
+#include "gpu/zeros_pass.h"
 #include "shadow/frame/history.h"
 #include "shadow/map/lvsm/lvsm_passes.h"
 #include "shadow/recipe/prepared.h"
@@ -50,9 +51,7 @@ std::string histogram_head(std::uint32_t samples) {
 /// Counts the depths of every layer into its bins.
 void add_histogram(const FrameInput& input, TextureHandle depths, BufferHandle bins, const GnLvsmParams& params) {
     const TextureDesc source = input.graph.desc(depths);
-    input.graph.add_pass(
-        "lvsm: empty histogram", [&](PassBuilder& pass) { pass.copy_to(bins); },
-        [bins](Recorder& r) { r.fill(bins, 0); });
+    add_zeros(input.graph, "lvsm: empty histogram", {bins});
     ShaderInputs inputs;
     inputs.texture(source.samples > 1 ? "sampler2DMSArray" : "sampler2DArray", "depths", depths);
     inputs.buffer("buffer", "Bins", "uint bins[];", bins).constant("GnLvsmParams", "params", params);

@@ -9,6 +9,7 @@
 // Also here: penumbra_march.glsl, penumbra_fit.glsl.
 #include "shadow/map/penumbra_deep/penumbra_deep.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/casters/point_maps.h"
 #include "shadow/casters/texel_lists.h"
 #include "shadow/receiver/sample_pass.h"
@@ -78,9 +79,7 @@ TextureHandle add_fit(const FrameInput& input, const LightViews& views, const Te
                                                   .height = views.resolution,
                                                   .layers = views.layers * static_cast<std::uint32_t>(params.nodes)});
     const BufferHandle wide = graph.create({.name = "penumbra wide", .bytes = 2 * sizeof(std::uint32_t)});
-    graph.add_pass(
-        "penumbra: none is wide", [&](PassBuilder& pass) { pass.copy_to(wide); },
-        [wide](Recorder& r) { r.fill(wide, 0); });
+    add_zeros(graph, "penumbra: none is wide", {wide});
 
     ShaderInputs inputs;
     add_lists(inputs, lists, ListAccess::add);

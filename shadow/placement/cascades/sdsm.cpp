@@ -8,6 +8,7 @@
 // registers before one atomic, where the paper uses shared memory.
 #include "shadow/placement/cascades/sdsm.h"
 
+#include "gpu/zeros_pass.h"
 #include "shadow/placement/cascades/cascade_views.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -112,9 +113,7 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
     const uvec2 columns((input.samples.width + 63) / 64, (input.samples.height + GN_SDSM_ROWS - 1) / GN_SDSM_ROWS);
 
     // Where the samples are along the view, the slices, and what each slice's samples span.
-    graph.add_pass(
-        "sdsm clear", [&](PassBuilder& pass) { pass.copy_to(reduction); },
-        [reduction](Recorder& r) { r.fill(reduction, 0); });
+    add_zeros(graph, "sdsm clear", {reduction});
     add_pass(input, constants, reduction, {"sdsm distances", "distances", columns, samples});
     add_pass(input, constants, reduction, {"sdsm splits", "splits", uvec2(1), {}});
     add_pass(input, constants, reduction, {"sdsm bounds", "bounds", columns, samples});
