@@ -33,6 +33,11 @@ GN_FN GnChoice gn_only(int view) {
     return choice;
 }
 
+// The one view there is, or the face around the light that the receiver lies behind.
+GN_FN GnChoice gn_face_choice(GnReceiver receiver, GnFacesData data) {
+    return gn_only(data.eye_ws.w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.eye_ws)) : 0);
+}
+
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #endif

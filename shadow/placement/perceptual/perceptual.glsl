@@ -32,7 +32,7 @@ GN_FN int gn_perceptual_follow(int wanted, int before, float change) {
 }
 
 GN_FN GnChoice gn_perceptual_choose(GnReceiver receiver, GnFacesData data) {
-    return gn_only(data.eye_ws.w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.eye_ws)) : 0);
+    return gn_face_choice(receiver, data);
 }
 
 #ifdef __cplusplus

@@ -7,7 +7,7 @@
 #include "shadow/placement/faces.glsl"
 
 GN_FN GnChoice gn_psm_choose(GnReceiver receiver, GnFacesData data) {
-    return gn_only(data.eye_ws.w > 0.5f ? gn_face_of(receiver.p_ws - vec3(data.eye_ws)) : 0);
+    return gn_face_choice(receiver, data);
 }
 
 #endif
