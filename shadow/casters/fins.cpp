@@ -127,13 +127,6 @@ Visibility add_fin_resolve(const FrameInput& input, const Recipe& recipe, const 
     return result;
 }
 
-VolumeBuffers add_fin_edges(const FrameInput& input) {
-    VolumeBuffers buffers = import_volume_buffers(input, {.skip_masked = true, .culling = false});
-    add_facing(input, buffers);
-    add_silhouettes(input, buffers);
-    return buffers;
-}
-
 std::string refuses_fins(std::string_view part, const Recipe& recipe) {
     return recipe.placement != nullptr && recipe.placement->bends
                ? fmt::format(

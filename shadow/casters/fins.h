@@ -33,8 +33,6 @@ struct FinLookup {
 Visibility add_fin_resolve(const FrameInput& input, const Recipe& recipe, const LightViews& views, TextureHandle depth,
                            TextureHandle fins, const FinLookup& lookup);
 
-/// The silhouettes that fins stand on, of opaque casters: masked ones have no outline that geometry knows.
-VolumeBuffers add_fin_edges(const FrameInput& input);
 /// The sentence why a placement's views cannot hold fins, or "".
 std::string refuses_fins(std::string_view part, const Recipe& recipe);
 

@@ -161,9 +161,7 @@ std::shared_ptr<const RasterDesc> region_pipeline(const FrameInput& input, const
 }  // namespace
 
 HardShadow add_hard_shadow(const FrameInput& input, bool closed) {
-    HardShadow hard{import_volume_buffers(input, {.skip_masked = true, .closed = closed, .culling = false}), {}, {}};
-    add_facing(input, hard.buffers);
-    add_silhouettes(input, hard.buffers);
+    HardShadow hard{add_all_silhouettes(input, closed), {}, {}};
     const TextureHandle receivers = add_receivers(input, hard.buffers);
     hard.counts = add_counts(input, hard.buffers, receivers);
     hard.visibility = add_count_resolve(input, hard.counts, {.masked = true});

@@ -229,4 +229,12 @@ void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers) {
     add_list_pass(input, {"volumes: silhouettes", false, silhouette_text}, inputs, buffers.frame.edges);
 }
 
+VolumeBuffers add_all_silhouettes(const FrameInput& input, bool closed) {
+    const VolumeBuffers buffers =
+        import_volume_buffers(input, {.skip_masked = true, .closed = closed, .culling = false});
+    add_facing(input, buffers);
+    add_silhouettes(input, buffers);
+    return buffers;
+}
+
 }  // namespace gn

@@ -136,6 +136,8 @@ double rounding_metres(const FrameInput& input);
 void add_facing(const FrameInput& input, const VolumeBuffers& buffers);
 /// Sums the triangles around every edge and lists the sides.
 void add_silhouettes(const FrameInput& input, const VolumeBuffers& buffers);
+/// Silhouettes in view or not, for what edges hide beyond the hard shadow. Masked casters have no outline that geometry knows.
+VolumeBuffers add_all_silhouettes(const FrameInput& input, bool closed = true);
 /// A depth of its own: the view samples' depth, lifted where a sample touches the edge of a volume.
 /// With a stencil where samples are to be marked.
 TextureHandle add_receivers(const FrameInput& input, const VolumeBuffers& buffers, bool marks = false);

@@ -43,7 +43,7 @@ Visibility add_penumbra_maps(const FrameInput& input, const Recipe& recipe) {
     add_caster_passes(input, recipe, views, {.depth = depth});
     ShaderInputs surfaces;
     surfaces.texture("sampler2DArray", "depth_map", depth);
-    add_fins(input, add_fin_edges(input), views,
+    add_fins(input, add_all_silhouettes(input), views,
              {.name = "penumbra-maps: cones and sheets",
               .includes = "#include \"shadow/direct/penumbra_maps/penumbra_maps.glsl\"\n",
               .fragment = penumbra_text,

@@ -124,9 +124,7 @@ Visibility add_plateaus(const FrameInput& input, const Recipe& recipe) {
     if (!has_extent(input.light().shape)) {
         return hard;
     }
-    const VolumeBuffers buffers = import_volume_buffers(input, {.skip_masked = true, .culling = false});
-    add_facing(input, buffers);
-    add_silhouettes(input, buffers);
+    const VolumeBuffers buffers = add_all_silhouettes(input);
     return add_edge_resolve(input, hard.image, add_slopes(input, buffers, *found),
                             {.name = "plateaus: resolve", .includes = "", .expression = "min(hard, soft)"});
 }

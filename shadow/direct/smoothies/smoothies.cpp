@@ -48,7 +48,7 @@ Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
     ShaderInputs extra;
     extra.texture("sampler2DArray", "depth_map", depth)
         .constant("GnSmoothiesParams", "params", recipe.of<GnSmoothiesParams>("smoothies"));
-    add_fins(input, add_fin_edges(input), views,
+    add_fins(input, add_all_silhouettes(input), views,
              {.name = "smoothies: fins",
               .includes = "#include \"shadow/direct/smoothies/smoothies.glsl\"\n",
               .fragment = fin_text,

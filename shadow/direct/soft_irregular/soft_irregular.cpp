@@ -75,10 +75,7 @@ struct EdgeSums {
 EdgeSums add_edge_sums(const FrameInput& input, const LightViews& views, const TexelLists& lists,
                        const GnSoftIrregularParams& params) {
     // Find the silhouettes; samples that face the light are on no other side of them than the volumes'.
-    const VolumeBuffers buffers =
-        import_volume_buffers(input, {.skip_masked = true, .closed = params.closed != 0, .culling = false});
-    add_facing(input, buffers);
-    add_silhouettes(input, buffers);
+    const VolumeBuffers buffers = add_all_silhouettes(input, params.closed != 0);
 
     // Nothing is hidden yet.
     const VkDeviceSize samples = VkDeviceSize{input.samples.width} * input.samples.height;
