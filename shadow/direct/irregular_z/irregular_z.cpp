@@ -59,13 +59,8 @@ Visibility add_irregular_z(const FrameInput& input, const Recipe& recipe) {
 }
 
 std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& recipe) {
-    const Part& placement = recipe.placement_for(light.shape);
-    return placement.bends
-               ? fmt::format(
-                     "direct 'irregular-z' follows straight edges through its views and placement '{}' bends "
-                     "them; use auto or cube",
-                     placement.id)
-               : "";
+    return refuses_bent(light, recipe,
+                        "direct 'irregular-z' follows straight edges through its views and placement '{}' bends them");
 }
 
 }  // namespace

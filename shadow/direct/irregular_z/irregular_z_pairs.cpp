@@ -266,4 +266,9 @@ HiddenSamples add_hidden_samples(const FrameInput& input, const Recipe& recipe, 
     return found;
 }
 
+std::string refuses_bent(const Light& light, const Recipe& recipe, std::string_view sentence) {
+    const Part& placement = recipe.placement_for(light.shape);
+    return placement.bends ? fmt::format(fmt::runtime(sentence), placement.id) + "; use auto or cube" : "";
+}
+
 }  // namespace gn

@@ -40,4 +40,8 @@ struct HiddenSamples {
 HiddenSamples add_hidden_samples(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                                  bool list_triangles);
 
+/// Why texels of a light's views cannot list what a part asks of them: its placement bends straight edges. `sentence` has {} for the
+/// placement's name and ends before what would do; "" where the placement serves.
+std::string refuses_bent(const Light& light, const Recipe& recipe, std::string_view sentence);
+
 }  // namespace gn

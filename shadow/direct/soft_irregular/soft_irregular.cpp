@@ -142,13 +142,9 @@ Visibility add_soft_irregular(const FrameInput& input, const Recipe& recipe) {
 }
 
 std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& recipe) {
-    const Part& placement = recipe.placement_for(light.shape);
-    return placement.bends
-               ? fmt::format(
-                     "direct 'soft-irregular' follows straight edges through its views and placement '{}' bends "
-                     "them; use auto or cube",
-                     placement.id)
-               : "";
+    return refuses_bent(
+        light, recipe,
+        "direct 'soft-irregular' follows straight edges through its views and placement '{}' bends them");
 }
 
 }  // namespace

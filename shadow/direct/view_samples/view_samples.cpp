@@ -6,12 +6,13 @@
 // Departs from it: triangles find samples through a tree of boxes over the lists, and points near an edge may be asked
 // themselves, whose answer is the truth's.
 //
-// Stands on: shadow/placement/place, shadow/direct/irregular_z (a sample's texel)
+// Stands on: shadow/placement/place, shadow/direct/irregular_z (a sample's texel, what it refuses)
 // Also here: view_samples_lists.h, view_samples_lists.cpp, view_samples_table.h, view_samples_table.cpp, view_samples_walk.h,
 // view_samples_walk.cpp, view_samples_walk.glsl.
 #include "shadow/direct/view_samples/view_samples.h"
 
 #include "gpu/zeros_pass.h"
+#include "shadow/direct/irregular_z/irregular_z_pairs.h"
 #include "shadow/direct/view_samples/view_samples_walk.h"
 #include "shadow/frame/frame.h"
 #include "shadow/placement/place.h"
@@ -207,13 +208,10 @@ std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& re
             most_points, params.patterns * params.patterns, params.samples,
             params.samples * params.patterns * params.patterns, most_points / (params.patterns * params.patterns));
     }
-    const Part& placement = recipe.placement_for(light.shape);
-    return placement.bends
-               ? fmt::format(
-                     "direct 'view-samples' lists samples in texels of a view that a matrix gives, and placement "
-                     "'{}' bends its views; use auto or cube",
-                     placement.id)
-               : "";
+    return refuses_bent(
+        light, recipe,
+        "direct 'view-samples' lists samples in texels of a view that a matrix gives, and placement '{}' "
+        "bends its views");
 }
 
 }  // namespace
