@@ -146,6 +146,28 @@ GnLight rectangle(vec3 at, vec3 target) {
     return light;
 }
 
+SceneBuilder garden() {
+    SceneBuilder b;
+    Texture holes{.name = "holes",
+                  .image = {2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 0, 255, 255, 255, 255}}};
+    const int leaf = b.material({.name = "leaf", .alpha_mode = AlphaMode::mask}, &holes);
+    const int one = b.material({.name = "one side", .double_sided = false});
+    b.ground(10).box({-1, 0, -1}, {0, 1.3F, 0.2F}).torus({1.4F, 1, 0}, 0.7F, 0.25F, 12);
+    b.soup({{-2, 0.3F, 1}, {2, 2, 2}}, 0.8F, 30, 4);
+    b.quad({-2, 1.6F, -2}, {-0.6F, 1.7F, -2}, {-0.6F, 1.7F, -0.8F}, {-2, 1.6F, -0.8F}, leaf);
+    b.quad({0.8F, 1.9F, -2}, {1.9F, 1.9F, -2}, {1.9F, 1.9F, -1}, {0.8F, 1.9F, -1}, one);
+    b.camera({3.4F, 3.6F, 4.4F}, {0, 0.4F, 0});
+    return b;
+}
+
+Scene box_on_ground() {
+    SceneBuilder b;
+    b.ground(8).box({-1, 0.5F, -1}, {1, 2.5F, 1}).light(sun({0.3F, -1, 0.2F}));
+    Scene scene = b.scene();
+    scene.cameras = {{.position_ws = vec3(0, 9, 9), .forward_ws = glm::normalize(vec3(0, -1, -1))}};
+    return scene;
+}
+
 Recipe direct_recipe(const Part& part, const std::vector<std::pair<std::string, std::string>>& values) {
     Recipe recipe;
     recipe.name = std::string(part.id);

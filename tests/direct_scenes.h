@@ -39,6 +39,11 @@ GnLight spot(vec3 at, vec3 target, float half_angle);
 /// A rectangle of no extent: its centre is all there is, so that the hard shadow is the truth.
 GnLight rectangle(vec3 at, vec3 target);
 
+/// Boxes, a torus, loose triangles, a one-sided board and a leaf with holes over a ground, before a camera and without a light.
+SceneBuilder garden();
+/// A box above a ground, under a sun.
+Scene box_on_ground();
+
 Recipe direct_recipe(const Part& part, const std::vector<std::pair<std::string, std::string>>& values = {});
 
 /// How a part's V differs from the traced V over the counted samples away from the edges of the shadow.

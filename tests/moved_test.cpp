@@ -16,14 +16,6 @@ namespace {
 
 constexpr uint width = 96, height = 64;
 
-Scene box_on_ground() {
-    by_hand::SceneBuilder b;
-    b.ground(8).box({-1, 0.5F, -1}, {1, 2.5F, 1}).light(by_hand::sun({0.3F, -1, 0.2F}));
-    Scene scene = b.scene();
-    scene.cameras = {{.position_ws = vec3(0, 9, 9), .forward_ws = glm::normalize(vec3(0, -1, -1))}};
-    return scene;
-}
-
 FrameResult draw(SceneGpu& gpu, const Recipe& recipe, History* history) {
     return render_frame(test::device(), gpu, gpu.scene->cameras.front(), recipe,
                         {.width = width, .height = height, .picture = false, .history = history});
@@ -41,7 +33,7 @@ class Moved : public testing::TestWithParam<const char*> {};
 TEST_P(Moved, CastersTakeTheirShadowAlong) {
     const test::ValidationGuard guard;
     const Recipe recipe = load_recipe(GetParam());
-    Scene scene = box_on_ground();
+    Scene scene = by_hand::box_on_ground();
     SceneGpu gpu = upload_scene(test::device(), scene);
     History history(test::device());
     const FrameResult still = draw(gpu, recipe, &history);

@@ -77,7 +77,7 @@ void write_report(const fs::path& folder, const Comparison& comparison) {
     const fs::path templates = data_root() / "apps" / "report";
     std::string page = read_text(templates / "index.html");
     fill_in(page, "style", read_text(templates / "report.css"));
-    fill_in(page, "script", read_text(templates / "report.js"));
+    fill_in(page, "script", read_text(templates / "elements.js") + read_text(templates / "report.js"));
     fill_in(page, "data", for_script_element(dump(report_json(comparison), -1)));
     write_text(folder / "index.html", page);
 }

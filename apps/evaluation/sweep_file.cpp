@@ -3,9 +3,7 @@
 
 #include "base/error.h"
 #include "base/param.h"
-
-#define TOML_HEADER_ONLY 1
-#include <toml++/toml.h>
+#include "base/toml_scalar.h"
 
 #include <algorithm>
 #include <array>
@@ -28,17 +26,8 @@ void check_keys(const toml::table& table, std::span<const std::string_view> know
 
 /// A text, a whole number, a number or true and false, as it would be typed.
 std::string text_of(const toml::node& node, const std::string& where) {
-    if (const auto* text = node.as_string()) {
-        return text->get();
-    }
-    if (const auto* integer = node.as_integer()) {
-        return fmt::format("{}", integer->get());
-    }
-    if (const auto* real = node.as_floating_point()) {
-        return fmt::format("{}", real->get());
-    }
-    if (const auto* boolean = node.as_boolean()) {
-        return boolean->get() ? "true" : "false";
+    if (std::optional<std::string> text = scalar_text(node)) {
+        return *std::move(text);
     }
     fail("{}: is neither a text nor a number", where);
 }

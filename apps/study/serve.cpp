@@ -21,7 +21,7 @@ std::string page_of(const std::string& name) {
     const std::filesystem::path templates = data_root() / "apps" / "report";
     std::string page = read_text(templates / (name + ".html"));
     fill_in(page, "style", read_text(templates / "report.css") + read_text(templates / "study.css"));
-    fill_in(page, "charts", read_text(templates / "charts.js"));
+    fill_in(page, "charts", read_text(templates / "elements.js") + read_text(templates / "charts.js"));
     fill_in(page, "script", read_text(templates / (name + ".js")));
     return page;
 }

@@ -248,7 +248,7 @@ void write_sweep_page(const std::filesystem::path& folder, SweepStore& store) {
     const std::filesystem::path templates = data_root() / "apps" / "report";
     std::string page = read_text(templates / "sweep.html");
     fill_in(page, "style", read_text(templates / "report.css"));
-    fill_in(page, "charts", read_text(templates / "charts.js"));
+    fill_in(page, "charts", read_text(templates / "elements.js") + read_text(templates / "charts.js"));
     fill_in(page, "script", read_text(templates / "sweep.js"));
     fill_in(page, "data", for_script_element(dump(page_json(title, file, placed), -1)));
     write_text(folder / "index.html", page);

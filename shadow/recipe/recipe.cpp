@@ -2,12 +2,10 @@
 #include "shadow/recipe/recipe.h"
 
 #include "base/paths.h"
+#include "base/toml_scalar.h"
 #include "shadow/recipe/check_recipe.h"
 #include "shadow/recipe/recipe_keys.h"
 #include "shadow/recipe/recipe_set.h"
-
-#define TOML_HEADER_ONLY 1
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -34,20 +32,11 @@ std::string text_of_list(const toml::array& list, std::string_view key, const st
 }
 
 std::string text_of(const toml::node& node, std::string_view key, const std::string& where) {
-    if (const auto* text = node.as_string()) {
-        return text->get();
-    }
     if (const auto* list = node.as_array(); list != nullptr && (key == "visibility" || key == "placement")) {
         return text_of_list(*list, key, where);
     }
-    if (const auto* integer = node.as_integer()) {
-        return fmt::format("{}", integer->get());
-    }
-    if (const auto* real = node.as_floating_point()) {
-        return fmt::format("{}", real->get());
-    }
-    if (const auto* boolean = node.as_boolean()) {
-        return boolean->get() ? "true" : "false";
+    if (std::optional<std::string> text = scalar_text(node)) {
+        return *std::move(text);
     }
     fail("{}: {} is neither a number, a text nor true or false", where, key);
 }

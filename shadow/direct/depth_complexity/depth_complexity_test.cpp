@@ -223,7 +223,7 @@ TEST(DepthComplexityLaws, TwoOfThreePointsDecideAndNoPointHasFewerSurfacesThanNo
 }
 
 /// Solids, a ring, boards one before the other, loose triangles and a leaf with holes over a ground.
-SceneBuilder garden() {
+SceneBuilder crowded_garden() {
     SceneBuilder b;
     Texture holes{.name = "holes",
                   .image = {2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 0, 255, 255, 255, 255}}};
@@ -274,7 +274,7 @@ TEST(DepthComplexityRendered, EqualsTracingTheSamePoints) {
         if (light.kind == GN_LIGHT_POINT) {
             continue;  // its points are those of the disc that each sample sees
         }
-        const Scene scene = garden().light(light).scene();
+        const Scene scene = crowded_garden().light(light).scene();
         const Difference d = from_traced_points(scene, "depth-complexity,depth-complexity.samples=16", 16);
         EXPECT_GT(d.judged, 3000U);
         EXPECT_GT(d.penumbra, 400U);
@@ -285,7 +285,7 @@ TEST(DepthComplexityRendered, EqualsTracingTheSamePoints) {
 }
 
 TEST(DepthComplexityRendered, OneVoteErrsOnHardEdgesAlone) {
-    const Scene scene = garden().light(area_lights()[3]).scene();
+    const Scene scene = crowded_garden().light(area_lights()[3]).scene();
     const Difference d =
         from_traced_points(scene, "depth-complexity,depth-complexity.samples=16,depth-complexity.votes=one", 16);
     EXPECT_LE(d.more, 60U) << "one a row, " << d.first;

@@ -44,7 +44,7 @@ TEST(SoftIrregularLaws, SumsOfEdgesAreTheSameInAnyOrder) {
 }
 
 /// Boxes, a ring and boards over a ground, under each kind of light with an extent.
-Scene garden() {
+Scene soft_garden() {
     SceneBuilder b;
     b.ground(10).box({-1, 0, -1}, {0, 1.3F, 0.2F}).torus({1.4F, 1, 0}, 0.7F, 0.25F, 10);
     b.quad({-2, 1.6F, -2}, {-0.6F, 1.7F, -2}, {-0.6F, 1.7F, -0.8F}, {-2, 1.6F, -0.8F});
@@ -73,7 +73,7 @@ FrameResult render(const Scene& scene, const std::string& recipe) {
 }
 
 TEST(SoftIrregularRendered, GivesWhatSoftVolumesGive) {
-    const Scene scene = garden();
+    const Scene scene = soft_garden();
     const FrameResult listed = render(scene, "soft-irregular,resolution=128"), drawn = render(scene, "soft-volumes");
     for (std::size_t light = 0; light < scene.lights.size(); ++light) {
         const std::vector<float>&v = listed.visibility[light].values, &w = drawn.visibility[light].values;
@@ -107,7 +107,7 @@ TEST(SoftIrregularRendered, SlabIsExact) {
 }
 
 TEST(SoftIrregularRendered, IsTheSameOnEveryGridAndPlacementToTheBit) {
-    const Scene scene = garden();
+    const Scene scene = soft_garden();
     Recipe recipe = load_recipe("soft-irregular,resolution=64");
     const FrameResult fine = render(scene, recipe, 48, 36);
     recipe.resolution = 1;
@@ -122,7 +122,7 @@ TEST(SoftIrregularRendered, IsTheSameOnEveryGridAndPlacementToTheBit) {
 }
 
 TEST(SoftIrregularRendered, OuterPenumbraeLeaveTheHardShadowDark) {
-    const Scene scene = garden();
+    const Scene scene = soft_garden();
     const FrameResult both = render(scene, "soft-irregular,resolution=64"),
                       outer = render(scene, "soft-irregular,resolution=64,soft-irregular.penumbra=outer"),
                       hard = render(scene, "irregular-z,resolution=64");

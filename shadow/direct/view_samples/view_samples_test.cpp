@@ -190,21 +190,6 @@ TEST(MayHide, LeavesOutNoBoxInWhichASampleLosesAPoint) {
     }
 }
 
-/// Boxes, a torus, loose triangles and a leaf with holes over a ground.
-Scene garden(const GnLight& light) {
-    SceneBuilder b;
-    Texture holes{.name = "holes",
-                  .image = {2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 0, 255, 255, 255, 255}}};
-    const int leaf = b.material({.name = "leaf", .alpha_mode = AlphaMode::mask}, &holes);
-    const int one = b.material({.name = "one side", .double_sided = false});
-    b.ground(10).box({-1, 0, -1}, {0, 1.3F, 0.2F}).torus({1.4F, 1, 0}, 0.7F, 0.25F, 12);
-    b.soup({{-2, 0.3F, 1}, {2, 2, 2}}, 0.8F, 30, 4);
-    b.quad({-2, 1.6F, -2}, {-0.6F, 1.7F, -2}, {-0.6F, 1.7F, -0.8F}, {-2, 1.6F, -0.8F}, leaf);
-    b.quad({0.8F, 1.9F, -2}, {1.9F, 1.9F, -2}, {1.9F, 1.9F, -1}, {0.8F, 1.9F, -1}, one);
-    b.camera({3.4F, 3.6F, 4.4F}, {0, 0.4F, 0});
-    return b.light(light).scene();
-}
-
 FrameResult render(const Scene& scene, const std::string& recipe, uint width = 96, uint height = 72) {
     const test::ValidationGuard guard;
     SceneGpu uploaded = upload_scene(device(), scene);
@@ -250,7 +235,7 @@ TEST(ViewSamplesRendered, HideThePointsThatRaysToThemFindHidden) {
     // Many points of a large sheet make walks long, which are handed over.
     for (const GnLight& light : area_lights()) {
         for (const auto& [points, side] : {std::pair{32, 1}, {40, 2}, {256, 1}}) {
-            const Scene scene = garden(light);
+            const Scene scene = garden().light(light).scene();
             const FrameResult frame = render(
                 scene, fmt::format("view-samples,view-samples.samples={},view-samples.patterns={}", points, side));
             const Pairs pairs = compare_pairs(scene, frame, points, side);
@@ -264,14 +249,14 @@ TEST(ViewSamplesRendered, OfALightWithoutExtentIsTheIrregularZBufferToTheBit) {
     for (GnLight light : area_lights()) {
         light.radius = light.angular_radius = 0;
         light.half_size = vec2(0);
-        const Scene scene = garden(light);
+        const Scene scene = garden().light(light).scene();
         EXPECT_EQ(visibility(scene, "view-samples"), visibility(scene, "irregular-z")) << "kind " << light.kind;
     }
 }
 
 TEST(ViewSamplesRendered, IsTheSameOnEveryGridAndInEveryOrderToTheBit) {
     for (const char* test : {"exact", "table"}) {
-        const Scene scene = garden(area_lights()[0]);
+        const Scene scene = garden().light(area_lights()[0]).scene();
         const std::string recipe = fmt::format("view-samples,view-samples.test={}", test);
         const std::vector<float> v = visibility(scene, recipe);
         for (const char* other : {"resolution=16", "resolution=300", "placement=cascades"}) {
@@ -295,7 +280,7 @@ TEST(ViewSamplesRendered, TheMapErrsByTheTexelsOfItsEdges) {
         return std::sqrt(sum / static_cast<double>(a.size()));
     };
     for (const GnLight& light : area_lights()) {
-        const Scene scene = garden(light);
+        const Scene scene = garden().light(light).scene();
         const std::vector<float> exact = visibility(scene, "view-samples,view-samples.samples=64");
         const std::string table = "view-samples,view-samples.samples=64,view-samples.test=table";
         const double coarse = rms(visibility(scene, table + ",view-samples.angles=16,view-samples.offsets=8"), exact);
@@ -309,14 +294,14 @@ TEST(ViewSamplesRendered, TheMapErrsByTheTexelsOfItsEdges) {
 
 TEST(ViewSamplesRendered, SolidsCastWithTheFacesThatSomeOfTheLightMissesAlone) {
     for (const GnLight& light : area_lights()) {
-        const Scene scene = garden(light);
+        const Scene scene = garden().light(light).scene();
         EXPECT_EQ(visibility(scene, "view-samples,view-samples.closed=true"), visibility(scene, "view-samples"))
             << "kind " << light.kind;
     }
 }
 
 TEST(ViewSamplesRendered, TellWhatIsHiddenListedAndAsked) {
-    const Scene scene = garden(area_lights()[0]);
+    const Scene scene = garden().light(area_lights()[0]).scene();
     SceneGpu uploaded = upload_scene(device(), scene);
     const std::vector<std::string> names{"hidden-samples", "list-length", "asked-triangles"};
     const auto told = [&](const std::string& text, std::uint32_t resolution) {
@@ -354,7 +339,7 @@ TEST(ViewSamplesRendered, TellWhatIsHiddenListedAndAsked) {
 }
 
 TEST(ViewSamplesRendered, WhatCannotBeIsRefusedByName) {
-    const Scene scene = garden(area_lights()[2]);
+    const Scene scene = garden().light(area_lights()[2]).scene();
     SceneGpu uploaded = upload_scene(device(), scene);
     const auto refused = [&](const std::string& recipe) {
         return render_frame(device(), uploaded, scene.cameras.front(), load_recipe(recipe),

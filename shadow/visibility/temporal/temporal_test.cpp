@@ -62,14 +62,6 @@ TEST(Temporal, ABoxTouchesWhatLiesBehindItFromAnyPartOfTheLight) {
     EXPECT_FALSE(touches(lamp, vec3(0), 0)) << "the box is beyond the lamp";
 }
 
-Scene box_on_ground() {
-    by_hand::SceneBuilder b;
-    b.ground(8).box({-1, 0.5F, -1}, {1, 2.5F, 1}).light(by_hand::sun({0.3F, -1, 0.2F}));
-    Scene scene = b.scene();
-    scene.cameras = {{.position_ws = vec3(0, 9, 9), .forward_ws = glm::normalize(vec3(0, -1, -1))}};
-    return scene;
-}
-
 /// Frames of a recipe with a history of their own.
 class Sequence {
   public:
@@ -155,7 +147,7 @@ bool surely_revealed(const CpuSamples& before, const Camera& camera, vec3 p_ws) 
 /// A sample that comes into view is what a frame alone says of it, to the bit; others know more than that frame.
 TEST(TemporalRendered, ADisoccludedSampleIsHardToTheBit) {
     const test::ValidationGuard guard;
-    const Scene scene = box_on_ground();
+    const Scene scene = by_hand::box_on_ground();
     SceneGpu gpu = upload_scene(test::device(), scene);
     Sequence gathered(gpu, "temporal,resolution=64");
     Sequence alone(gpu, "hard,placement=jittered,resolution=64");
@@ -215,7 +207,7 @@ class NoStaleValue : public testing::TestWithParam<const char*> {};
 /// A caster jumps: where the truth changes no frame from then on shows anything of before.
 TEST_P(NoStaleValue, WhereACasterJumps) {
     const test::ValidationGuard guard;
-    Scene scene = box_on_ground();
+    Scene scene = by_hand::box_on_ground();
     SceneGpu gpu = upload_scene(test::device(), scene);
     const std::string recipe = std::string(GetParam()) + ",placement=jittered,resolution=64";
     Sequence gathered(gpu, recipe + ",visibility=temporal");
