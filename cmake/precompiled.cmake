@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What nearly every source includes is parsed once a build: gn_precompiled(target KIND), where KIND is LIBRARY, FRAME (what
-# sees a frame), COMMAND, SUITE or FRAME_SUITE. Most stand in the lists because they never change here. The few headers of
-# ours are included, by way of others, by nearly every source of their kind, so that editing them rebuilds all of it anyway;
-# headers_alone keeps every header honest without the lists.
+# sees a frame), EVALUATION, COMMAND, SUITE or FRAME_SUITE. Most stand in the lists because they never change here. The few
+# headers of ours are included, by way of others, by nearly every source of their kind, so that editing them rebuilds all of
+# it anyway; headers_alone keeps every header honest without the lists.
 option(GNOMON_PRECOMPILED "Precompile the headers of others" ON)
 
 set(gn_precompiled_headers
@@ -24,6 +24,7 @@ if(GNOMON_PRECOMPILED)
   # Ours are named without the folder of this checkout, so that a compiler cache serves all checkouts of a machine.
   gn_precompile(LIBRARY gn_options)
   gn_precompile(FRAME gn_options <shadow/frame/frame.h>)
+  gn_precompile(EVALUATION gn_command_options <nlohmann/json.hpp>)
   gn_precompile(COMMAND gn_command_options <nlohmann/json.hpp> <spdlog/spdlog.h> <shadow/frame/frame.h>)
   gn_precompile(SUITE gn_suite_options <gtest/gtest.h> <tests/printers.h>)
   gn_precompile(FRAME_SUITE gn_suite_options <gtest/gtest.h> <tests/printers.h> <tests/rig.h>)

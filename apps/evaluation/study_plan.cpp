@@ -13,17 +13,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-StudyPlan plan_from(const ordered_json& json, const std::string& where) {
+StudyPlan plan_from(const ordered_json& data, const std::string& where) {
     StudyPlan plan;
-    const std::string kind = json.at("kind");
+    const std::string kind = data.at("kind");
     if (kind != "survey" && kind != "threshold") {
         fail("{}: kind '{}'; valid are survey, threshold", where, kind);
     }
     plan.kind = kind == "survey" ? StudyKind::survey : StudyKind::threshold;
     if (plan.kind == StudyKind::threshold) {
-        plan.artifacts = json.at("artifacts").get<std::vector<double>>();
-        plan.contrasts = json.at("contrasts").get<std::vector<double>>();
-        plan.picture_size = json.at("picture_size");
+        plan.artifacts = data.at("artifacts").get<std::vector<double>>();
+        plan.contrasts = data.at("contrasts").get<std::vector<double>>();
+        plan.picture_size = data.at("picture_size");
         const auto within = [](const std::vector<double>& values, double low, double high) {
             return !values.empty() && std::all_of(values.begin(), values.end(),
                                                   [&](double value) { return value >= low && value <= high; });
@@ -34,7 +34,7 @@ StudyPlan plan_from(const ordered_json& json, const std::string& where) {
         }
         return plan;
     }
-    for (const ordered_json& page : json.at("pages")) {
+    for (const ordered_json& page : data.at("pages")) {
         SurveyPage one{page.at("name"), {}};
         for (const ordered_json& picture : page.at("pictures")) {
             one.pictures.push_back({picture.at("name"), picture.at("file")});
@@ -73,22 +73,22 @@ StudyPlan read_plan(const std::filesystem::path& folder) {
 }
 
 std::string plan_text(const StudyPlan& plan) {
-    ordered_json json{{"kind", plan.kind == StudyKind::survey ? "survey" : "threshold"}};
+    ordered_json data{{"kind", plan.kind == StudyKind::survey ? "survey" : "threshold"}};
     if (plan.kind == StudyKind::threshold) {
-        json["artifacts"] = plan.artifacts;
-        json["contrasts"] = plan.contrasts;
-        json["picture_size"] = plan.picture_size;
+        data["artifacts"] = plan.artifacts;
+        data["contrasts"] = plan.contrasts;
+        data["picture_size"] = plan.picture_size;
     } else {
-        json["pages"] = ordered_json::array();
+        data["pages"] = ordered_json::array();
         for (const SurveyPage& page : plan.pages) {
             ordered_json pictures = ordered_json::array();
             for (const SurveyPicture& picture : page.pictures) {
                 pictures.push_back({{"name", picture.name}, {"file", picture.file}});
             }
-            json["pages"].push_back({{"name", page.name}, {"pictures", pictures}});
+            data["pages"].push_back({{"name", page.name}, {"pictures", pictures}});
         }
     }
-    return json.dump(1) + "\n";
+    return data.dump(1) + "\n";
 }
 
 }  // namespace gn

@@ -8,7 +8,7 @@
 namespace gn {
 namespace {
 
-constexpr std::string_view schema = R"(
+constexpr std::string_view study_schema = R"(
 CREATE TABLE participant (id INTEGER PRIMARY KEY, token TEXT NOT NULL UNIQUE, seed INTEGER NOT NULL, details TEXT NOT NULL,
                           begun TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP);
 CREATE TABLE answer (participant INTEGER NOT NULL REFERENCES participant (id), position INTEGER NOT NULL,
@@ -18,7 +18,8 @@ CREATE TABLE answer (participant INTEGER NOT NULL REFERENCES participant (id), p
 
 }  // namespace
 
-StudyStore::StudyStore(const std::filesystem::path& path) : database_(path, "GnSt", 1, schema, Journal::write_ahead) {}
+StudyStore::StudyStore(const std::filesystem::path& path)
+    : database_(path, "GnSt", 1, study_schema, Journal::write_ahead) {}
 
 Participant StudyStore::begin(const std::string& token, std::uint64_t seed, const std::string& details) {
     database_.transaction([&] {

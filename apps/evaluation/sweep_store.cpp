@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kind = "GnSw";
 constexpr int version = 1;
-constexpr std::string_view schema = R"(
+constexpr std::string_view sweep_schema = R"(
 CREATE TABLE title (only INTEGER PRIMARY KEY CHECK (only = 1), name TEXT NOT NULL, text TEXT NOT NULL,
                     version TEXT NOT NULL, quick INTEGER NOT NULL);
 CREATE TABLE run (key TEXT PRIMARY KEY, view TEXT NOT NULL, status TEXT NOT NULL, reason TEXT NOT NULL,
@@ -26,7 +26,7 @@ constexpr double row_overhead = 1.3;
 }  // namespace
 
 SweepStore::SweepStore(const std::filesystem::path& path, const SweepTitle& title)
-    : database_(path, kind, version, schema) {
+    : database_(path, kind, version, sweep_schema) {
     entitle(title);
 }
 

@@ -16,7 +16,7 @@ constexpr const char* types_text = R"(
 #include "shadow/casters/conservative.glsl"
 )";
 
-constexpr const char* vertex_text = R"(
+constexpr const char* slanted_vertex_text = R"(
 layout(location = 0) in vec3 in_position_ws;
 layout(push_constant, scalar) uniform Push { int view; int layer; uint first_triangle; } push;
 layout(location = 0) out vec3 out_position;
@@ -65,7 +65,7 @@ void main() {
 }
 )";
 
-constexpr const char* fragment_text = R"(
+constexpr const char* touched_text = R"(
 layout(location = 0) flat in vec3 in_a;
 layout(location = 1) flat in vec3 in_b;
 layout(location = 2) flat in vec3 in_c;
@@ -75,7 +75,7 @@ layout(location = 5) flat in uint triangle;
 layout(location = 0) out vec4 out_color;
 )";
 
-constexpr const char* fragment_main = R"(
+constexpr const char* touched_main = R"(
 void main() {
     ivec3 texel = ivec3(ivec2(gl_FragCoord.xy), views[caster_view].layer);
     out_color = vec4(0.0);
@@ -91,11 +91,11 @@ RasterDesc pipeline(const ConservativePass& pass, bool tiles) {
     all.add(pass.inputs);
     const std::string head = fmt::format("#define GN_TILES {}\n", tiles) + types_text;
     RasterDesc desc;
-    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", head + views.text() + vertex_text};
+    desc.vertex = {ShaderKind::vertex, pass.name + ".vert", head + views.text() + slanted_vertex_text};
     desc.geometry = ShaderSource{ShaderKind::geometry, pass.name + ".geom", head + views.text() + geometry_text};
     desc.fragment = ShaderSource{
         ShaderKind::fragment, pass.name + ".frag",
-        head + pass.includes + all.text() + fragment_text + pass.functions + fragment_main + pass.body + "\n}\n"};
+        head + pass.includes + all.text() + touched_text + pass.functions + touched_main + pass.body + "\n}\n"};
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT}};
     desc.vertex_stride = sizeof(vec3);
     return sealed(std::move(desc));

@@ -13,7 +13,7 @@
 namespace gn {
 namespace {
 
-constexpr const char* fragment_text = R"(
+constexpr const char* fin_text = R"(
 layout(push_constant) uniform Push { int index; };
 layout(location = 0) in vec3 p_ws;
 layout(location = 1) flat in vec3 a_ws;
@@ -83,7 +83,7 @@ void add_fins(const FrameInput& input, const VolumeBuffers& buffers, const Light
         desc.vertex = {ShaderKind::vertex, "fin.vert", head + include_line("shadow/casters/fins.glsl")};
         desc.fragment = ShaderSource{ShaderKind::fragment, "fin.frag",
                                      fmt::format("{}\nlayout(location = 0) out {} result;\n{}{}}}\n", head, pass.result,
-                                                 fragment_text, pass.fragment)};
+                                                 fin_text, pass.fragment)};
         desc.blend = Blend::min;
         return sealed(desc);
     });

@@ -12,7 +12,7 @@ struct FrameBefore {
     std::uint64_t version = 0;                          ///< of the geometry
     std::shared_ptr<const std::vector<dmat4>> objects;  ///< ws, from where each object's points were at first
 };
-constexpr const char* name = "frame before";
+constexpr const char* kept_as = "frame before";
 
 /// Copies an image that belongs to a renderer: it draws the next frame's over it.
 void add_copy(FrameGraph& graph, TextureHandle from, TextureHandle to) {
@@ -62,7 +62,7 @@ std::shared_ptr<const std::vector<dmat4>> objects_of(const Scene& scene) {
 }  // namespace
 
 std::optional<Reprojection> reprojection(const FrameInput& input) {
-    const auto* before = input.history != nullptr ? input.history->before<FrameBefore>(name) : nullptr;
+    const auto* before = input.history != nullptr ? input.history->before<FrameBefore>(kept_as) : nullptr;
     if (before == nullptr) {
         return {};
     }
@@ -86,10 +86,10 @@ std::optional<SamplesBefore> samples_before(const FrameInput& input) {
 }
 
 void leave_frame(History& history, const ViewSamples& samples, const Scene& scene, const SceneHandles& handles) {
-    const auto* before = history.before<FrameBefore>(name);
+    const auto* before = history.before<FrameBefore>(kept_as);
     const bool still = before != nullptr && before->version == handles.version;
-    history.leave(
-        name, FrameBefore{samples.constants.cs_from_ws, handles.version, still ? before->objects : objects_of(scene)});
+    history.leave(kept_as, FrameBefore{samples.constants.cs_from_ws, handles.version,
+                                       still ? before->objects : objects_of(scene)});
 }
 
 }  // namespace gn

@@ -161,7 +161,7 @@ void main() {
 }
 )";
 
-constexpr std::uint32_t run = 128;  ///< texels that one invocation sums
+constexpr std::uint32_t texels_summed = 128;  ///< texels that one invocation sums
 
 void add_run_pass(const FrameInput& input, std::string name, const ShaderInputs& inputs, const std::string& includes,
                   const char* text, std::uint32_t count) {
@@ -250,8 +250,9 @@ SortedSamples add_sorted_samples(const FrameInput& input, const Recipe& recipe, 
     sorted.used = create("view-samples used", 1, sizeof(std::uint32_t));
 
     const auto bits = static_cast<std::uint32_t>(std::bit_width(std::max(views.resolution, 1U) - 1));
-    const std::uint32_t runs = ((views.layers << (2 * bits)) + run - 1) / run;
-    const BufferHandle cells = create("view-samples lists", VkDeviceSize{runs} * run + 1, sizeof(std::uint32_t));
+    const std::uint32_t runs = ((views.layers << (2 * bits)) + texels_summed - 1) / texels_summed;
+    const BufferHandle cells =
+        create("view-samples lists", VkDeviceSize{runs} * texels_summed + 1, sizeof(std::uint32_t));
     add_counts(input, recipe, views, sorted, cells, bits);
     add_running_sum(input, sorted, cells, runs);
     add_tree(input, sorted, cells, axes);

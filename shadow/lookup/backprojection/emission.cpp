@@ -15,7 +15,7 @@ namespace {
 /// Samples along a side of a cell.
 constexpr int samples = 16;
 
-constexpr const char* text = R"(
+constexpr const char* emission_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -51,7 +51,7 @@ TextureHandle add_emission(const FrameInput& input) {
     inputs.image("rgba32f", "writeonly", "image2DArray", "sent", sent);
     inputs.constant("GnLight", "light", light.shape).constant("float", "lod", lod).constant("int", "samples", samples);
     const auto shader = compute_once(input.prepared, "emission", hashed(inputs), [&] {
-        return include_line("shadow/lookup/backprojection/emission.glsl") + inputs.text() + text;
+        return include_line("shadow/lookup/backprojection/emission.glsl") + inputs.text() + emission_text;
     });
     input.graph.add_pass(
         "emission", [&](PassBuilder& pass) { inputs.declare(pass); },

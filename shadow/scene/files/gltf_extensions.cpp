@@ -54,7 +54,7 @@ constexpr auto translucent =
     std::to_array<std::string_view>({"KHR_materials_diffuse_transmission", "ADOBE_materials_thin_transparency"});
 
 // Pictures in formats that are not read; a mask among them is lost, which the material says.
-constexpr auto pictures =
+constexpr auto unread_pictures =
     std::to_array<std::string_view>({"KHR_texture_basisu", "EXT_texture_avif", "EXT_texture_astc", "MSFT_texture_dds"});
 
 bool among(Names names, std::string_view name) {
@@ -83,7 +83,7 @@ void note_extensions(File& file) {
             of_looks.insert(name);
         } else if (among(translucent, name)) {
             of_light.insert(name);
-        } else if (among(pictures, name)) {
+        } else if (among(unread_pictures, name)) {
             of_pictures.insert(name);
         } else {
             (required ? needed : unknown).insert(clean_text(name));

@@ -14,45 +14,45 @@ namespace {
 constexpr std::size_t most_values = 8'000'000;
 constexpr std::size_t deepest = 128;
 
-using Names = std::initializer_list<std::string_view>;
+using Keys = std::initializer_list<std::string_view>;
 
-bool among(Names names, std::string_view name) {
+bool one_of(Keys names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Keys whose value, or every element of whose list, is an index, an offset or a count.
 bool is_whole(std::string_view key) {
-    return among({"bufferView",
-                  "buffer",
-                  "byteOffset",
-                  "byteLength",
-                  "byteStride",
-                  "componentType",
-                  "count",
-                  "mesh",
-                  "material",
-                  "indices",
-                  "camera",
-                  "skin",
-                  "children",
-                  "nodes",
-                  "joints",
-                  "skeleton",
-                  "scene",
-                  "source",
-                  "sampler",
-                  "index",
-                  "texCoord",
-                  "mode",
-                  "inverseBindMatrices"},
-                 key);
+    return one_of({"bufferView",
+                   "buffer",
+                   "byteOffset",
+                   "byteLength",
+                   "byteStride",
+                   "componentType",
+                   "count",
+                   "mesh",
+                   "material",
+                   "indices",
+                   "camera",
+                   "skin",
+                   "children",
+                   "nodes",
+                   "joints",
+                   "skeleton",
+                   "scene",
+                   "source",
+                   "sampler",
+                   "index",
+                   "texCoord",
+                   "mode",
+                   "inverseBindMatrices"},
+                  key);
 }
 
 bool is_list(std::string_view key) {
-    return among({"accessors", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
-                  "samplers", "scenes", "skins", "textures", "primitives", "children", "joints", "translation",
-                  "rotation", "scale", "matrix"},
-                 key);
+    return one_of({"accessors", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
+                   "samplers", "scenes", "skins", "textures", "primitives", "children", "joints", "translation",
+                   "rotation", "scale", "matrix"},
+                  key);
 }
 
 // Receives the JSON as events.
