@@ -28,6 +28,7 @@ constexpr const char* examples = R"(Examples:
   gnomon render corridor -r pcf,placement=cascades --show texels -o texels.png
   gnomon compare courtyard -r hard -r pcf,resolution=2048,pcf.taps=25 -o report
   gnomon compare slab contact -r hard -r volumes --json - | jq '.runs[].error.rmse'
+  gnomon bench courtyard -r pcf -r volumes         what each pass of a frame waits for on this machine
   gnomon bake pcf,placement=cascades -o baked      its shaders, for renderers that link no compiler
   gnomon sweep sambeek-quality --quick             a grid of runs, into a file that grows and resumes
   gnomon study prepare DIR --kind threshold        then: gnomon study serve DIR; studies with people, in a browser
@@ -57,6 +58,15 @@ Results are kept in DIR/results as soon as they are measured: the same command a
 A run is ok when it served at least one light that reaches what the view sees; a light that it refused, or that reaches
 nothing, has status and reason of its own. Ctrl-C keeps what is measured.)";
 
+constexpr const char* bench_examples = R"(Examples:
+  gnomon bench                                         soft, pcf, hard and volumes on the courtyard
+  gnomon bench grid:objects=100 -r hard,resolution=512 -r volumes --size 1200x1200
+  gnomon bench car.glb -r pcf --json - | jq '.runs[].passes[] | {name, ms, bottleneck}'
+
+Small probes measure what this machine can do at best: passes, multiply-adds, bytes, vertices, triangles, fragments. Then every
+pass is timed and counted, and what it counted is held against the probes: the largest share is what the pass waits for.
+docs/bench.md has the rules. Times are the least of --repeat frames; other work on the machine makes all of them longer.)";
+
 constexpr const char* bake_examples = R"(Examples:
   gnomon bake pcf -o baked                             then Info::baked = "baked" (shadow/embed/embed.h)
   gnomon bake hard pcf,placement=cascades -o baked     for a renderer that changes between both
@@ -76,7 +86,8 @@ constexpr const char* sweep_examples = R"(Examples:
   gnomon merge part*.sqlite -o all.sqlite --report report    all parts in one file
 
 Each finished run is on the disk before the next begins: the same command again goes on where it ended, however that was.
-Shipped: kreuzer-resolution, lauritzen, sambeek-memory, sambeek-performance, sambeek-quality. docs/sweep.md has the format.)";
+Shipped: kreuzer-resolution, lauritzen, sambeek-limits, sambeek-memory, sambeek-performance, sambeek-quality. docs/sweep.md
+has the format.)";
 
 constexpr const char* study_examples = R"(Examples:
   gnomon study prepare survey                                  draws the pictures of sambeek-quality, the reference with them
@@ -174,13 +185,14 @@ struct Parser {
     ShowOptions show;
     RenderOptions render;
     CompareOptions compare;
+    BenchOptions bench;
     BakeOptions bake;
     SweepOptions sweep;
     MergeOptions merge;
     StudyOptions study;
     std::string reference;
-    std::string render_size, compare_size;
-    FileWords render_file, compare_file;
+    std::string render_size, compare_size, bench_size;
+    FileWords render_file, compare_file, bench_file;
     CLI::Option* path = nullptr;
     bool verbose = false, quiet = false;
 
@@ -193,6 +205,7 @@ struct Parser {
         add_list();
         add_render();
         add_compare();
+        add_bench();
         add_bake();
         add_sweep();
         add_study();
@@ -215,6 +228,22 @@ struct Parser {
         command->add_option("--ground", words.ground, ground_help);
         command->add_option("--up", words.up, up_help);
         command->add_option("--assets", file.assets, assets_help)->type_name("DIR")->allow_extra_args(false);
+    }
+
+    void add_bench() {
+        CLI::App* command = app.add_subcommand("bench", "What each pass of a frame waits for on this machine");
+        command->add_option("SCENE", bench.scene, "Built-in name or file (default: courtyard)");
+        command->add_option("-r,--recipe", bench.recipes,
+                            "Recipes with overrides; may be repeated (default: soft, pcf, hard, volumes)");
+        command->add_option("--json", bench.json, "Write the figures as JSON; - is standard output");
+        command->add_option("--size", bench_size, "WIDTHxHEIGHT in pixels (default: 640x360)");
+        command->add_option("--view", bench.view, "Name of the camera (default: the first)");
+        add_file_options(command, bench.file, bench_file);
+        command->add_option("--repeat", bench.repeat, "Timed frames after one that warms up (default: 5)")
+            ->check(CLI::Range(1, 1000));
+        command->add_option("--threads", bench.threads, "0 means all (default: 0)")->check(CLI::Range(0, 1024));
+        command->add_flag("--strict", bench.strict, "A refusal ends with exit status 1");
+        command->footer(bench_examples);
     }
 
     void add_bake() {
@@ -408,6 +437,14 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
     }
     if (name == "show") {
         return parser.show;
+    }
+    if (name == "bench") {
+        parse_file(parser.bench_file, parser.bench.file);
+        parser.bench.size = parser.bench_size.empty() ? Size{} : parse_size(parser.bench_size);
+        if (parser.bench.recipes.empty()) {
+            parser.bench.recipes = {"soft", "pcf", "hard", "volumes"};
+        }
+        return parser.bench;
     }
     if (name == "bake") {
         return parser.bake;

@@ -81,6 +81,15 @@ struct CompareOptions {
     std::string command;  ///< the command line that asks for the same again
 };
 
+struct BenchOptions {
+    std::string scene = "courtyard", view, json;  ///< "" where not asked for
+    std::vector<std::string> recipes;
+    FileOptions file;
+    Size size;
+    int repeat = 5, threads = 0;
+    bool strict = false;
+};
+
 struct BakeOptions {
     std::vector<std::string> recipes;
     std::string folder;
@@ -109,8 +118,8 @@ struct StudyOptions {
 
 struct DoctorOptions {};
 
-using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, SweepOptions,
-                             MergeOptions, StudyOptions, DoctorOptions>;
+using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BenchOptions, BakeOptions,
+                             SweepOptions, MergeOptions, StudyOptions, DoctorOptions>;
 
 /// What the command line asks for; nothing when it was answered already (--help, --version).
 /// Throws InputError with one sentence.
@@ -121,6 +130,7 @@ int run(const ListOptions& options);
 int run(const ShowOptions& options);
 int run(const RenderOptions& options);
 int run(const CompareOptions& options);
+int run(const BenchOptions& options);
 int run(const BakeOptions& options);
 int run(const SweepOptions& options);
 int run(const MergeOptions& options);

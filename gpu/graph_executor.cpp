@@ -49,8 +49,15 @@ std::vector<double> GraphExecutor::run(const GraphDeclaration& declaration, cons
     }
     const std::vector<Turn> turns = turns_of(declaration, plan);
     const bool timestamps = timed && device_.has(Feature::timestamps);
-    return timed && !timestamps ? run_apart(turns, executes, writer)
-                                : run_together(turns, executes, writer, timestamps);
+    if (timed && !timestamps) {
+        return run_apart(turns, executes, writer);
+    }
+    PassCounters* const counters = timed ? nullptr : PassCounters::of(device_);
+    std::vector<double> ms = run_together(turns, executes, writer, timestamps, counters);
+    if (counters != nullptr) {
+        counters->finish(declaration, turns);
+    }
+    return ms;
 }
 
 std::vector<double> GraphExecutor::run_apart(std::span<const Turn> turns, const std::vector<Execute>& executes,
@@ -67,16 +74,26 @@ std::vector<double> GraphExecutor::run_apart(std::span<const Turn> turns, const 
 }
 
 std::vector<double> GraphExecutor::run_together(std::span<const Turn> turns, const std::vector<Execute>& executes,
-                                                PassWriter& writer, bool timestamps) {
+                                                PassWriter& writer, bool timestamps, PassCounters* counters) {
     begin();
+    const auto passes = static_cast<std::uint32_t>(turns.size());
     if (timestamps) {
-        timestamps_.begin(commands_, static_cast<std::uint32_t>(turns.size()));
+        timestamps_.begin(commands_, passes);
+    }
+    if (counters != nullptr) {
+        counters->begin(commands_, passes);
     }
     for (const Turn& turn : turns) {
         if (timestamps) {
             timestamps_.stamp(commands_);
         }
+        if (counters != nullptr) {
+            counters->open(commands_);
+        }
         writer.write(commands_, *turn.pass, executes[turn.call]);
+        if (counters != nullptr) {
+            counters->close(commands_);
+        }
         if (timestamps) {
             timestamps_.stamp(commands_);
         }

@@ -2,6 +2,7 @@
 // Runs a plan on a Vulkan device at once and waits for it: what measuring and reading back need.
 #pragma once
 
+#include "gpu/pass_counters.h"
 #include "gpu/pass_writer.h"
 
 namespace gn {
@@ -14,7 +15,8 @@ class GraphExecutor {
     GraphExecutor& operator=(const GraphExecutor&) = delete;
 
     /// Records, submits and waits. Milliseconds per planned pass where timed, else zeros. On a CPU device a timed pass
-    /// is a submit of its own, measured by the host's clock; on a GPU timestamps bracket it.
+    /// is a submit of its own, measured by the host's clock; on a GPU timestamps bracket it. Where a PassCounters lives for the
+    /// device, a run without times is counted.
     std::vector<double> run(const GraphDeclaration& declaration, const GraphPlan& plan, GraphResources& resources,
                             const std::vector<Execute>& executes, bool timed);
 
@@ -25,7 +27,7 @@ class GraphExecutor {
     std::vector<double> run_apart(std::span<const Turn> turns, const std::vector<Execute>& executes,
                                   PassWriter& writer);
     std::vector<double> run_together(std::span<const Turn> turns, const std::vector<Execute>& executes,
-                                     PassWriter& writer, bool timestamps);
+                                     PassWriter& writer, bool timestamps, PassCounters* counters);
 
     Device& device_;
     UploadArena arena_;

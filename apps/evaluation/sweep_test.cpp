@@ -263,6 +263,20 @@ TEST(Limits, AreThoseOfAPlantedTable) {
     EXPECT_FALSE(most_objects(samples, 400, 5).has_value()) << "not even one object";
 }
 
+TEST(Limits, TheMostIsAtTheLargestTargetThatStillCarriesIt) {
+    // Three targets carry all 200; the largest of them is the limit.
+    std::vector<LimitSample> samples;
+    for (const double target : {25.0, 100.0, 400.0, 800.0}) {
+        for (const double objects : {1.0, 200.0}) {
+            samples.push_back({objects, target, objects * target / 2000});
+        }
+    }
+    const Limits limits = limits_of(samples, 50);
+    EXPECT_EQ(limits.most, 200.0);
+    EXPECT_EQ(limits.most_at, 400.0) << "200 at 25, at 100 and at 400";
+    EXPECT_NEAR(*limits.at_largest, 125.0, 1) << "0.4 ms an object";
+}
+
 TEST(ShippedSweeps, AreReadable) {
     std::map<std::string, std::size_t> sizes;
     for (const auto& entry : std::filesystem::directory_iterator(data_root() / "sweeps")) {
@@ -280,7 +294,8 @@ TEST(ShippedSweeps, AreReadable) {
     }
     // [Sam07] section 4.1.1: 588 scenes, 12 variants.
     EXPECT_EQ(sizes["sambeek-performance"], 588U * 12U);
-    EXPECT_EQ(sizes.size(), 5U) << testing::PrintToString(sizes);
+    EXPECT_EQ(sizes["sambeek-limits"], 140U * 12U) << "one and three lights, targets to 300";
+    EXPECT_EQ(sizes.size(), 6U) << testing::PrintToString(sizes);
 }
 
 }  // namespace

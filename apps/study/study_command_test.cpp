@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gnomon study from outside: a server behind its socket, killed and started again, and what its answers become.
 #include "apps/subprocess_test.h"
+#include "tests/thorough.h"
 
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -9,7 +10,9 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <random>
 #include <regex>
+#include <sstream>
 #include <thread>
 
 namespace gn {
@@ -104,6 +107,85 @@ TEST(StudyCommand, ServesAThresholdStudyThroughAKillAndExportsIt) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6) << csv;
     const CommandResult results = run_gnomon({"study", "analyse", folder, "--json", "-"});
     EXPECT_EQ(json::parse(results.out).at("participants"), 1) << results.err;
+}
+
+/// One participant, and what the server has acknowledged of their answers.
+struct Taken {
+    std::string token;
+    int acknowledged = 0;
+    bool done = false;
+};
+
+/// What is answered at a position, so that each kept answer can be told from its neighbours.
+bool said_at(int position) {
+    return (static_cast<unsigned>(position) * 2654435761U >> 16U) % 2 == 0;
+}
+
+/// Answers as fast as the server takes it, until it is gone or asks nothing more.
+void answer_until_gone(const Server& server, Taken& taken) {
+    httplib::Client client("127.0.0.1", server.port_);
+    while (!taken.done) {
+        const json body{
+            {"token", taken.token}, {"position", taken.acknowledged}, {"line", said_at(taken.acknowledged)}};
+        const auto reply = client.Post("/api/answer", body.dump(), "application/json");
+        if (!reply) {
+            return;
+        }
+        ASSERT_EQ(reply->status, 200) << reply->body;
+        ++taken.acknowledged;
+        taken.done = json::parse(reply->body).at("done");
+    }
+}
+
+TEST(StudyCommand, LosesAndDoublesNoAnswerWhenItIsKilledAtRandomMoments) {
+    const ScratchFolder scratch;
+    const std::string folder = scratch / "study";
+    ASSERT_EQ(run_gnomon({"study", "prepare", folder, "--kind", "threshold"}).status, 0);
+    constexpr unsigned seed = 7;
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> moment(1, 120);
+    const int kills = test::thorough() ? 20 : 2;
+    std::vector<Taken> people;
+    for (int kill = 0; kill < kills; ++kill) {
+        Server server(folder);
+        ASSERT_GT(server.port_, 0) << server.running_->said();
+        if (people.empty() || people.back().done) {
+            people.push_back({server.post("/api/begin", {{"screen", screen}}).at("token"), 0, false});
+        }
+        std::thread answering([&] { answer_until_gone(server, people.back()); });
+        const int milliseconds = moment(random);
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        server.end(SIGKILL);
+        answering.join();
+        // Every acknowledged answer is there; one more may be, which the kill kept from being acknowledged.
+        Server after(folder);
+        for (Taken& taken : people) {
+            const int kept = json::parse(after.get("/api/state?token=" + taken.token)).at("position");
+            EXPECT_GE(kept, taken.acknowledged)
+                << "lost, kill " << kill << " after " << milliseconds << " ms, seed " << seed;
+            EXPECT_LE(kept, taken.acknowledged + (taken.done ? 0 : 1)) << "doubled, kill " << kill;
+            taken.acknowledged = kept;
+        }
+        after.end(SIGTERM);
+    }
+    // What is kept is what was said, each position once, in order.
+    std::stringstream csv(run_gnomon({"study", "export", folder}).out);
+    std::string line;
+    std::getline(csv, line);
+    for (std::size_t person = 0; person < people.size(); ++person) {
+        for (int position = 0; position < people[person].acknowledged; ++position) {
+            ASSERT_TRUE(std::getline(csv, line));
+            EXPECT_TRUE(line.starts_with(std::to_string(person + 1) + "," + std::to_string(position) + ",")) << line;
+            std::vector<std::string> fields;
+            std::stringstream words(line);
+            for (std::string field; std::getline(words, field, ',');) {
+                fields.push_back(field);
+            }
+            EXPECT_EQ(fields.at(7), said_at(position) ? "true" : "false") << line;
+        }
+    }
+    EXPECT_FALSE(std::getline(csv, line)) << line;
+    EXPECT_GT(people.front().acknowledged, 0) << "the server was killed before anything was answered";
 }
 
 TEST(StudyCommand, ASurveysPicturesAreDrawnByTheCommand) {

@@ -13,11 +13,11 @@ namespace gn::glsl {
 
 // The finest level of a pyramid at which a rectangle lies in at most 2 x 2 texels.
 GN_FN int gn_pyramid_level(ivec2 first, ivec2 last, int levels) {
-    int level = 0;
-    while (level < levels - 1 && (((last.x >> level) - (first.x >> level)) > 1 || ((last.y >> level) - (first.y >> level)) > 1)) {
-        ++level;
-    }
-    return level;
+    // Sides of 2^k and more texels lie in three of level k at most, and in two of the next.
+    ivec2 side = last - first;
+    int level = findMSB(max(max(side.x, side.y), 1));
+    ivec2 apart = (last >> level) - (first >> level);
+    return min(level + (max(apart.x, apart.y) > 1 ? 1 : 0), levels - 1);
 }
 
 // The level of a pyramid that coarse N-buffers are made of, and that block pyramids begin with: blocks of 8 texels.
@@ -25,22 +25,13 @@ const int gn_coarse_mip = 3;
 
 // The level of a whole pyramid that the first one of this pyramid is, by the sides of the map and of that level.
 GN_FN int gn_pyramid_first(int map_side, int side) {
-    int first = 0;
-    while ((map_side >> (first + 1)) >= side) {
-        ++first;
-    }
-    return first;
+    return findMSB(max(map_side / side, 1));
 }
 
 // The level of an N-buffer whose squares, one in each corner, cover a rectangle without a gap: the largest power of two
 // that is no longer than the longer side.
 GN_FN int gn_n_buffer_level(ivec2 first, ivec2 last, int levels) {
-    int side = max(last.x - first.x, last.y - first.y) + 1;
-    int level = 0;
-    while (level < levels - 1 && (2 << level) <= side) {
-        ++level;
-    }
-    return level;
+    return min(findMSB(max(max(last.x - first.x, last.y - first.y) + 1, 1)), levels - 1);
 }
 
 #ifdef __cplusplus

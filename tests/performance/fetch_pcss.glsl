@@ -7,11 +7,12 @@
 
 // The sum of what `count` points of the light see.
 float gn_fetch_points(GnLookup at, sampler2DArray depth, GnPcssLight half_light, float spread, GnPcssWiden widen, int count, float noise) {
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
+    GnPcssPoints points = gn_pcss_points(half_light.square, count, noise);
     vec2 last_ts = at.projected.bounds_ts.zw - 0.5 * at.projected.texel_ts;
     float sum = 0.0;
     for (int i = 0; i < count; ++i) {
-        vec2 q = gn_pcss_point(half_light.square, i, count, noise);
-        vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, spread) + q.x * widen.right_ts + q.y * widen.up_ts;
+        vec2 tap_ts = gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points));
         ivec2 texel = ivec2(floor(clamp(tap_ts, at.projected.bounds_ts.xy, last_ts) / at.projected.texel_ts));
         sum += texelFetch(depth, ivec3(texel, at.projected.layer), 0).r;
     }
@@ -20,16 +21,16 @@ float gn_fetch_points(GnLookup at, sampler2DArray depth, GnPcssLight half_light,
 
 float gn_fetch_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
     float noise = gn_pcss_noise(at.receiver, params);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
     float least_ts = params.least * at.projected.texel_ts;
     GnPcssWiden widen = gn_pcss_widen(at, half_light, region.spread, least_ts, 0.0);
     float mean = gn_fetch_points(at, depth, half_light, region.spread, widen, params.search_taps, noise) / float(params.search_taps);
-    float spread = gn_pcss_spread_at(at, region.receiver, gn_pcss_distance(at.view, axis, at.projected.uv_ts, mean));
+    float spread = gn_pcss_spread_at(at, region.receiver, gn_pcss_distance(metres, at.view, at.projected.uv_ts, mean));
     widen = gn_pcss_widen(at, half_light, spread, 0.0, least_ts);
     return gn_fetch_points(at, depth, half_light, spread, widen, params.taps, noise) / float(params.taps);
 }

@@ -28,46 +28,46 @@ GnLookup gn_back_one(GnBackPacket packet, int i) {
     return GnLookup(packet.receiver[i], packet.projected[i], packet.first.bias, packet.first.light, packet.first.view);
 }
 
-// Where something can hide the light from any of them, and whether all see all of it or none.
+// The area that the pyramids of all of them cover.
+vec4 gn_back_packet_area(GnBackPacket packet, GnBackLight lights[GN_BACK_PACKET], float nearest) {
+    vec4 area_ts = vec4(1.0e9, 1.0e9, -1.0e9, -1.0e9);
+    for (int i = 0; i < GN_BACK_PACKET; ++i) {
+        if (packet.counted[i]) {
+            vec4 one_ts = gn_back_area(packet.first.view, packet.first.projected.bounds_ts, lights[i], nearest);
+            area_ts = vec4(min(area_ts.xy, one_ts.xy), max(area_ts.zw, one_ts.zw));
+        }
+    }
+    return area_ts;
+}
+
+// What gn_back_class says of all of them alike, else -1.
+float gn_back_packet_class(GnBackPacket packet, GnBackRays rays[GN_BACK_PACKET], GnBackSearch search, vec2 range,
+                           GnBackprojectionParams params) {
+    bool lit = true;
+    bool dark = true;
+    for (int i = 0; i < GN_BACK_PACKET; ++i) {
+        if (packet.counted[i]) {
+            float found = gn_back_class(gn_back_one(packet, i), rays[i], search, range, params);
+            lit = lit && found == 1.0;
+            dark = dark && found == 0.0;
+        }
+    }
+    return lit ? 1.0 : dark ? 0.0 : -1.0;
+}
+
+// Where something can hide the light from any of them, and whether all see all of it or none: gn_back_search of all at once.
 GnBackSearch gn_back_packet_search(GnBackPacket packet, GN_BACK_MAPS, GnBackLight lights[GN_BACK_PACKET],
                                    GnBackRays rays[GN_BACK_PACKET], GnBackprojectionParams params) {
-    GnLookup of_view = packet.first;
-    ivec4 view = gn_back_view_texels(of_view.projected.bounds_ts, of_view.projected.texel_ts);
-    GnBackSearch result;
-    result.visibility = -1.0;
-    result.enlarged = 1.0;
-    result.nearest = 0.0;
+    GnBackSearch result = gn_back_unsearched();
     for (int step = 0; step <= params.refine; ++step) {
-        vec4 area_ts = vec4(1.0e9, 1.0e9, -1.0e9, -1.0e9);
-        for (int i = 0; i < GN_BACK_PACKET; ++i) {
-            if (packet.counted[i]) {
-                vec4 one_ts = gn_back_area(of_view.view, of_view.projected.bounds_ts, lights[i], result.nearest);
-                area_ts = vec4(min(area_ts.xy, one_ts.xy), max(area_ts.zw, one_ts.zw));
-            }
-        }
-        ivec4 texels = gn_back_texels(area_ts, of_view.projected.texel_ts, GN_BACK_CORNERS != 0);
-        result.held = ivec4(clamp(texels.xy, view.xy, view.zw - 1), clamp(texels.zw, view.xy + 1, view.zw));
-        result.whole = result.held == texels;
-        result.texels = gn_back_reached(texels, view);
+        result = gn_back_within(result, packet.first, gn_back_packet_area(packet, lights, result.nearest), params);
         if (GN_BACK_PYRAMID == GN_BACK_NONE) {
             break;
         }
-        vec2 range = gn_back_range(GN_BACK_THESE, result.held, of_view.projected.layer, params);
-        if (params.early_out != 0) {
-            bool all_lit = true;
-            bool all_dark = true;
-            for (int i = 0; i < GN_BACK_PACKET; ++i) {
-                if (packet.counted[i]) {
-                    float found = gn_back_class(gn_back_one(packet, i), rays[i], result, range);
-                    all_lit = all_lit && found == 1.0;
-                    all_dark = all_dark && found == 0.0;
-                }
-            }
-            bool mean = GN_BACK_FUSION == GN_BACK_MEAN && GN_BACK_LAYERS > 1;
-            result.visibility = all_lit ? 1.0 : all_dark && !mean ? 0.0 : -1.0;
-            if (result.visibility >= 0.0) {
-                break;
-            }
+        vec2 range = gn_back_range(GN_BACK_THESE, result.held, packet.first.projected.layer, params);
+        result.visibility = params.early_out != 0 ? gn_back_packet_class(packet, rays, result, range, params) : -1.0;
+        if (result.visibility >= 0.0) {
+            break;
         }
         result.nearest = max(range.x, result.nearest);
     }

@@ -89,8 +89,27 @@ struct GnBackSearch {
     float visibility;  // 0 or 1 where least and greatest depth decide, else -1
 };
 
-// Whether the range of depths that a rectangle of texels holds hides none of the light or all of it: 1, 0, else -1.
-float gn_back_class(GnLookup at, GnBackRays rays, GnBackSearch search, vec2 range) {
+GnBackSearch gn_back_unsearched() {
+    GnBackSearch search;
+    search.visibility = -1.0;
+    search.enlarged = 1.0;
+    search.nearest = 0.0;
+    return search;
+}
+
+// What the receiver's view holds of an area.
+GnBackSearch gn_back_within(GnBackSearch search, GnLookup at, vec4 area_ts, GnBackprojectionParams params) {
+    ivec4 view = gn_back_view_texels(at.projected.bounds_ts, at.projected.texel_ts);
+    ivec4 texels = gn_back_texels(area_ts, at.projected.texel_ts, GN_BACK_CORNERS != 0);
+    search.held = ivec4(clamp(texels.xy, view.xy, view.zw - 1), clamp(texels.zw, view.xy + 1, view.zw));
+    search.whole = search.held == texels;
+    search.texels = gn_back_reached(texels, view);
+    return search;
+}
+
+// Whether the range of depths that a rectangle of texels holds hides none of the light or all of it: 1, 0, else -1. A mean over
+// peeled surfaces is not what the first of them hides.
+float gn_back_class(GnLookup at, GnBackRays rays, GnBackSearch search, vec2 range, GnBackprojectionParams params) {
     ivec4 texels = search.held;
     // The plane is flat between its corners; a cone lies below it, deepest at the corners.
     float nearest = 1.0e30;
@@ -105,7 +124,9 @@ float gn_back_class(GnLookup at, GnBackRays rays, GnBackSearch search, vec2 rang
         between = between && gn_back_between(rays, gn_back_point(rays, uv_ts, range.x)) &&
                   gn_back_between(rays, gn_back_point(rays, uv_ts, range.y));
     }
-    return farthest <= range.x ? 1.0 : (search.whole || !gn_back_views_end) && between && nearest > range.y ? 0.0 : -1.0;
+    bool first_hides_all = GN_BACK_FUSION != GN_BACK_MEAN || GN_BACK_LAYERS < 2;
+    bool dark = first_hides_all && (search.whole || !gn_back_views_end) && between && nearest > range.y;
+    return farthest <= range.x ? 1.0 : dark ? 0.0 : -1.0;
 }
 
 // Least and greatest depth of at least a rectangle of texels.
@@ -123,11 +144,7 @@ vec2 gn_back_range(GN_BACK_MAPS, ivec4 texels, int layer, GnBackprojectionParams
 }
 
 GnBackSearch gn_back_search(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackRays rays, GnBackprojectionParams params) {
-    GnBackSearch result;
-    ivec4 view = gn_back_view_texels(at.projected.bounds_ts, at.projected.texel_ts);
-    result.visibility = -1.0;
-    result.enlarged = 1.0;
-    result.nearest = 0.0;
+    GnBackSearch result = gn_back_unsearched();
     for (int step = 0; step <= params.refine; ++step) {
         // A light that covers less than the least number of texels is taken for a larger one.
         vec4 area_ts = gn_back_area(at.view, at.projected.bounds_ts, light, result.nearest);
@@ -137,22 +154,14 @@ GnBackSearch gn_back_search(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBack
             GnBackLight enlarged = gn_back_scaled(light, result.enlarged);
             area_ts = gn_back_area(at.view, at.projected.bounds_ts, enlarged, result.nearest);
         }
-        ivec4 texels = gn_back_texels(area_ts, at.projected.texel_ts, GN_BACK_CORNERS != 0);
-        result.held = ivec4(clamp(texels.xy, view.xy, view.zw - 1), clamp(texels.zw, view.xy + 1, view.zw));
-        result.whole = result.held == texels;
-        result.texels = gn_back_reached(texels, view);
+        result = gn_back_within(result, at, area_ts, params);
         if (GN_BACK_PYRAMID == GN_BACK_NONE) {
             break;
         }
         vec2 range = gn_back_range(GN_BACK_THESE, result.held, at.projected.layer, params);
-        if (params.early_out != 0) {
-            result.visibility = gn_back_class(at, rays, result, range);
-            // A mean over peeled surfaces is not what the first of them hides.
-            bool mean = GN_BACK_FUSION == GN_BACK_MEAN && GN_BACK_LAYERS > 1;
-            result.visibility = mean && result.visibility == 0.0 ? -1.0 : result.visibility;
-            if (result.visibility >= 0.0) {
-                break;
-            }
+        result.visibility = params.early_out != 0 ? gn_back_class(at, rays, result, range, params) : -1.0;
+        if (result.visibility >= 0.0) {
+            break;
         }
         result.nearest = max(range.x, result.nearest);
     }

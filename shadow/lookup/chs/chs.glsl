@@ -74,18 +74,18 @@ struct GnChsSum {
 };
 
 // Adds a depth that was found at uv_ts of the tap's view, where the receiver's plane is at `plane`.
-void gn_chs_add(GnLookup at, GnLookup tap, vec3 axis, vec2 middle_ts, vec2 uv_ts, float depth, float plane, float weight, inout GnChsSum sum) {
+void gn_chs_add(GnLookup at, GnLookup tap, GnPcssMetres metres, vec2 middle_ts, vec2 uv_ts, float depth, float plane, float weight, inout GnChsSum sum) {
     sum.weight += weight;
     if (plane <= depth) {
         return;
     }
-    float distance = gn_pcss_seen(at, tap, axis, middle_ts, uv_ts, plane, depth);
+    float distance = gn_pcss_seen(at, tap, metres, middle_ts, uv_ts, plane, depth);
     sum.hidden += weight;
     sum.distance += weight * distance;
 }
 
 // One texel of a mip, by its middle on the map.
-void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, vec3 axis, vec2 middle_ts, int level,
+void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssMetres metres, vec2 middle_ts, int level,
                   float weight, GnChsParams params, inout GnChsSum sum) {
     vec2 uv_ts;
     GnLookup tap = gn_tap_reader(at, middle_ts, uv_ts);
@@ -99,7 +99,7 @@ void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sam
     float plane = gn_depth_at(tap.projected, centre_ts, tap.bias);
     if (params.texels == GN_CHS_MEAN) {
         float mean = texelFetch(mips, ivec3(texel, tap.projected.layer), level).r;
-        gn_chs_add(at, tap, axis, middle_ts, uv_ts, mean, plane, weight, sum);
+        gn_chs_add(at, tap, metres, middle_ts, uv_ts, mean, plane, weight, sum);
         return;
     }
 
@@ -115,7 +115,7 @@ void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sam
         float decided = gn_chs_decided(range, near, far);
         if (decided >= 0.0) {
             float mean = decided > 0.0 ? texelFetch(mips, ivec3(texel, tap.projected.layer), level).r : far;
-            gn_chs_add(at, tap, axis, middle_ts, uv_ts, mean, decided > 0.0 ? far : near, weight, sum);
+            gn_chs_add(at, tap, metres, middle_ts, uv_ts, mean, decided > 0.0 ? far : near, weight, sum);
             return;
         }
     }
@@ -128,12 +128,12 @@ void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sam
         ivec2 point = ivec2(floor(point_ts / texel_ts));
         float seen = texelFetch(depth, ivec3(point, tap.projected.layer), 0).r;
         float here = gn_depth_at(tap.projected, (vec2(point) + 0.5) * texel_ts, tap.bias);
-        gn_chs_add(at, tap, axis, middle_ts, point_ts, seen, here, weight / float(parts * parts), sum);
+        gn_chs_add(at, tap, metres, middle_ts, point_ts, seen, here, weight / float(parts * parts), sum);
     }
 }
 
 // All texels of the mip in which `side` of them span the kernel that the light's points make through a plane at `spread`.
-GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssLight half_light, vec3 axis, float spread,
+GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssLight half_light, GnPcssMetres metres, float spread,
                        GnChsParams params) {
     GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, params.least * at.projected.texel_ts);
     vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread) + widen.right_ts;
@@ -153,7 +153,7 @@ GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid
     GnChsSum sum = GnChsSum(0.0, 0.0, 0.0);
     // An edge of no length has no inside: the receiver's own texel.
     if (reach_ts == vec2(0.0)) {
-        gn_chs_texel(at, depth, pyramid, mips, axis, at.projected.uv_ts, 0, 1.0, params, sum);
+        gn_chs_texel(at, depth, pyramid, mips, metres, at.projected.uv_ts, 0, 1.0, params, sum);
         return sum;
     }
     float least_area = 1.0e-3 * cell_ts * cell_ts;
@@ -167,7 +167,7 @@ GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid
             vec2 q = gn_chs_within(right_ts, up_ts, determinant, middle_ts - at.projected.uv_ts);
             float weight = gn_chs_covered(half_light.square, q, half_side);
             if (weight > 0.0) {
-                gn_chs_texel(at, depth, pyramid, mips, axis, middle_ts, level, weight, params, sum);
+                gn_chs_texel(at, depth, pyramid, mips, metres, middle_ts, level, weight, params, sum);
             }
         }
     }
@@ -176,17 +176,17 @@ GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid
 
 float gn_chs_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnChsParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
-    GnChsSum search = gn_chs_kernel(at, depth, pyramid, mips, half_light, axis, region.spread, params);
+    GnChsSum search = gn_chs_kernel(at, depth, pyramid, mips, half_light, metres, region.spread, params);
     if (search.hidden <= 0.0) {
         return 1.0;
     }
     float blocker = clamp(search.distance / search.hidden, 0.0, region.receiver);
-    GnChsSum filtered = gn_chs_kernel(at, depth, pyramid, mips, half_light, axis, gn_pcss_spread_at(at, region.receiver, blocker), params);
+    GnChsSum filtered = gn_chs_kernel(at, depth, pyramid, mips, half_light, metres, gn_pcss_spread_at(at, region.receiver, blocker), params);
     return filtered.weight > 0.0 ? 1.0 - filtered.hidden / filtered.weight : 1.0;
 }
 #endif

@@ -19,8 +19,8 @@
 
 // The texel of a place on the map, and what it holds.
 ivec2 gn_fake_texel(GnLookup at) { return ivec2(floor(at.projected.uv_ts / at.projected.texel_ts)); }
-GnPcssTap gn_fake_tap(GnLookup at, sampler2DArray depth, vec3 axis, ivec2 texel) {
-    return gn_pcss_tap(at, depth, axis, (vec2(texel) + 0.5) * at.projected.texel_ts);
+GnPcssTap gn_fake_tap(GnLookup at, sampler2DArray depth, GnPcssMetres metres, ivec2 texel) {
+    return gn_pcss_tap(at, depth, metres, (vec2(texel) + 0.5) * at.projected.texel_ts);
 }
 
 #if defined(GN_FAKE_SEARCH)
@@ -69,18 +69,18 @@ GnFakeFound gn_fake_in_block(GnFakeFound found, GnLookup at, sampler2DArray dept
 }
 
 // Of one that leaves the view, one by one, where kernels go on in the views beside it.
-GnFakeFound gn_fake_in_others(GnFakeFound found, GnLookup at, sampler2DArray depth, vec3 axis, GnFakeAxes axes, bool lit, ivec2 first,
+GnFakeFound gn_fake_in_others(GnFakeFound found, GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnFakeAxes axes, bool lit, ivec2 first,
                               int texels, int radius) {
     for (int i = 0; i < texels; ++i) {
         ivec2 texel = first + ivec2(i % gn_fake_block, i / gn_fake_block);
-        found = gn_fake_nearer(found, at, axes, texel, gn_fake_tap(at, depth, axis, texel).lit != lit, radius);
+        found = gn_fake_nearer(found, at, axes, texel, gn_fake_tap(at, depth, metres, texel).lit != lit, radius);
     }
     return found;
 }
 
 // Rings of blocks, until no farther one can hold a nearer texel. A loop, unlike a choice, ends for all neighbours where none goes
 // on.
-GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, vec3 axis, GnFakeAxes axes, bool lit, int radius) {
+GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnFakeAxes axes, bool lit, int radius) {
     GnFakeFound found = GnFakeFound(1.0e30, ivec2(0));
     vec2 place = at.projected.uv_ts / at.projected.texel_ts;
     ivec2 middle = gn_fake_texel(at) / gn_fake_block;
@@ -102,7 +102,7 @@ GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, vec3 axis, GnFakeA
             bool within = gn_within_view(at.projected, first_ts, first_ts + float(gn_fake_block) * at.projected.texel_ts);
             const int texels = gn_fake_block * gn_fake_block;
             found = gn_fake_in_block(found, at, depth, axes, lit, first, nearer && within ? texels / 4 : 0, radius);
-            found = gn_fake_in_others(found, at, depth, axis, axes, lit, first, nearer && !within ? texels : 0, radius);
+            found = gn_fake_in_others(found, at, depth, metres, axes, lit, first, nearer && !within ? texels : 0, radius);
         }
     }
     return found;
@@ -111,12 +111,12 @@ GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, vec3 axis, GnFakeA
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
     GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssTap own = gn_fake_tap(at, depth, axis, gn_fake_texel(at));
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
     if (!gn_fake_spreads(at.light, params)) {
         return own.lit ? 1.0 : 0.0;
     }
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, true);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, true);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
@@ -124,12 +124,12 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     float most = max(max(widest_ts.x, widest_ts.y) / at.projected.texel_ts, params.least);
     int radius = int(ceil(min(most, float(params.radius)))) + 1;
     GnFakeAxes axes = gn_fake_axes(at, half_light);
-    GnFakeFound found = gn_fake_search(at, depth, axis, axes, own.lit, radius);
+    GnFakeFound found = gn_fake_search(at, depth, metres, axes, own.lit, radius);
     if (found.reach >= 1.0e30) {
         return own.lit ? 1.0 : 0.0;
     }
     // What casts the edge stands where the receiver is dark, or where the texel is that was found.
-    float blocker = own.lit ? gn_fake_tap(at, depth, axis, found.texel).distance : own.distance;
+    float blocker = own.lit ? gn_fake_tap(at, depth, metres, found.texel).distance : own.distance;
     float spread = gn_pcss_spread_at(at, region.receiver, blocker);
     float away = length(gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, found.texel));
     float x = gn_fake_distance(away, found.reach, spread, params.least, float(params.radius));
@@ -140,9 +140,9 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
     GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
     ivec2 texel = gn_fake_texel(at);
-    GnPcssTap own = gn_fake_tap(at, depth, axis, texel);
+    GnPcssTap own = gn_fake_tap(at, depth, metres, texel);
     if (own.lit || !gn_fake_spreads(at.light, params)) {
         return own.lit ? 1.0 : 0.0;
     }
@@ -151,10 +151,10 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     vec2 end_ts = (vec2(end) + 0.5) * at.projected.texel_ts;
     // What lies behind that step may hide the light too: then nobody knows where it ends.
     if (max(abs(away.x), abs(away.y)) > float(params.radius) + 1.0 || !gn_within_view(at.projected, end_ts, end_ts) ||
-        !gn_fake_tap(at, depth, axis, end).lit) {
+        !gn_fake_tap(at, depth, metres, end).lit) {
         return 0.0;
     }
-    float receiver = gn_pcss_distance(at.view, axis, at.projected.uv_ts, at.projected.depth);
+    float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     vec2 way = gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, end);
     GnFakeAxes axes = gn_fake_axes(at, half_light);
     float reach = gn_fake_norm(axes.square, gn_fake_point(axes, way * at.projected.texel_ts));
@@ -166,9 +166,9 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 // 1 in shadow, and what hides the light there lies so many metres before the receiver, packed.
 vec3 gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                  GnFakePenumbraParams params) {
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssTap own = gn_fake_tap(at, depth, axis, gn_fake_texel(at));
-    float receiver = gn_pcss_distance(at.view, axis, at.projected.uv_ts, at.projected.depth);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
+    float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     return own.lit ? vec3(0.0) : vec3(1.0, gn_sssm_pack(max(receiver - own.distance, 0.0)), 0.0);
 }
 #endif

@@ -115,7 +115,7 @@ float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_l
 float gn_occlusion_textures_visibility(GnLookup at, sampler2DArray depth, sampler2DArray slices, GnOcclusionTexturesParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     if (half_light.right_ws == vec3(0.0) && half_light.up_ws == vec3(0.0)) {
-        return gn_pcss_tap(at, depth, gn_pcss_axis(at.light, at.receiver.p_ws), at.projected.uv_ts).lit ? 1.0 : 0.0;
+        return gn_pcss_tap(at, depth, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), at.projected.uv_ts).lit ? 1.0 : 0.0;
     }
     float end = gn_slices_end(at.light, at.view);
     float receiver = gn_slices_metres(at.light, at.view, at.projected.uv_ts, at.projected.depth);

@@ -31,21 +31,21 @@ struct GnPcssFound {
 
 GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light,
                            GnPcssParams params, float noise) {
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
     }
 
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, region.spread);
     GnPcssWiden widen = gn_pcss_widen(at, half_light, region.spread, params.least * at.projected.texel_ts, 0.0);
+    GnPcssPoints points = gn_pcss_points(half_light.square, params.search_taps, noise);
     float sum = 0.0;
     float count = 0.0;
     float nearest = result.receiver;
     for (int i = 0; i < params.search_taps; ++i) {
-        vec2 q = gn_pcss_point(half_light.square, i, params.search_taps, noise);
-        vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, region.spread) + q.x * widen.right_ts + q.y * widen.up_ts;
-        GnPcssTap tap = gn_pcss_tap(at, depth, axis, tap_ts);
+        GnPcssTap tap = gn_pcss_tap(at, depth, metres, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points)));
         if (!tap.lit) {
             sum += tap.distance;
             count += 1.0;
@@ -62,7 +62,6 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
 
 float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
     float noise = gn_pcss_noise(at.receiver, params);
     GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, noise);
     if (found.visibility >= 0.0) {
@@ -74,11 +73,12 @@ float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     vec2 reach_ts = gn_pcss_reach(at, half_light, spread);
     float width = max(max(reach_ts.x, reach_ts.y), least_ts) / at.projected.texel_ts;
     int taps = clamp(int(ceil(params.density * width)), min(4, params.taps), params.taps);
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssPoints points = gn_pcss_points(half_light.square, taps, noise);
     float lit = 0.0;
     for (int i = 0; i < taps; ++i) {
-        vec2 q = gn_pcss_point(half_light.square, i, taps, noise);
-        vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, spread) + q.x * widen.right_ts + q.y * widen.up_ts;
-        lit += gn_pcss_tap(at, depth, axis, tap_ts).lit ? 1.0 : 0.0;
+        lit += gn_pcss_tap(at, depth, metres, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points))).lit ? 1.0 : 0.0;
     }
     return lit / float(taps);
 }

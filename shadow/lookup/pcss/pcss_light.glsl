@@ -54,16 +54,43 @@ GN_FN vec3 gn_pcss_axis(GnLight light, vec3 p_ws) {
     return flat_light ? vec3(light.direction_ws) : -gn_to_light(light, p_ws);
 }
 
+// What makes metres along an axis of a view's depths, made ready for many places of its map: over the map's plane, at (x, y, 1) in
+// the view's own [-1,1]^2, what a ray makes along the axis and what it makes in depth are linear.
+struct GnPcssMetres {
+    vec3 axis_ws;
+    vec3 along;
+    vec3 deep;
+    float eye;     // the eye's depth
+    bool parallel;
+};
+
+GN_FN GnPcssMetres gn_pcss_metres(GnLightView view, vec3 axis_ws) {
+    GnPcssMetres metres;
+    metres.axis_ws = axis_ws;
+    metres.along = vec3(0.0f);
+    metres.deep = vec3(0.0f);
+    metres.eye = dot(view.depth_from_ws, vec4(vec3(view.eye_ws), 1.0f));
+    metres.parallel = GN_VIEW_KIND == 0 || view.eye_ws.w <= 0.5f || gn_bent(view);
+    if (GN_VIEW_KIND != 0) {
+        vec4 seen_ws = 0.5f * view.ws_from_cs[2] + view.ws_from_cs[3];
+        vec3 x_ws = vec3(view.ws_from_cs[0]) - view.ws_from_cs[0].w * vec3(view.eye_ws);
+        vec3 y_ws = vec3(view.ws_from_cs[1]) - view.ws_from_cs[1].w * vec3(view.eye_ws);
+        vec3 middle_ws = vec3(seen_ws) - seen_ws.w * vec3(view.eye_ws);
+        vec3 deep_ws = vec3(view.depth_from_ws);
+        metres.along = vec3(dot(axis_ws, x_ws), dot(axis_ws, y_ws), dot(axis_ws, middle_ws));
+        metres.deep = vec3(dot(deep_ws, x_ws), dot(deep_ws, y_ws), dot(deep_ws, middle_ws));
+    }
+    return metres;
+}
+
 // Metres along the axis from the light to what a tap holds at a linear depth; of a sun from the view's near plane.
-GN_FN float gn_pcss_distance(GnLightView view, vec3 axis, vec2 uv_ts, float depth) {
-    if (view.eye_ws.w <= 0.5f || gn_bent(view)) {
+GN_FN float gn_pcss_distance(GnPcssMetres metres, GnLightView view, vec2 uv_ts, float depth) {
+    if (metres.parallel) {
         return depth * view.metres_per_depth;
     }
     vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / vec2(view.rect_ts.z, view.rect_ts.w) * 2.0f - 1.0f;
-    vec4 seen_ws = view.ws_from_cs * vec4(p_ndc.x, p_ndc.y, 0.5f, 1.0f);
-    vec3 ray_ws = vec3(seen_ws) / seen_ws.w - vec3(view.eye_ws);
-    float eye = dot(view.depth_from_ws, vec4(vec3(view.eye_ws), 1.0f));
-    return dot(axis, ray_ws) * (depth - eye) / dot(vec3(view.depth_from_ws), ray_ws);
+    vec3 p = vec3(p_ndc.x, p_ndc.y, 1.0f);
+    return dot(metres.along, p) * (depth - metres.eye) / dot(metres.deep, p);
 }
 
 // What a receiver at `receiver` metres sees of the light's extent moves by over the receiver, for a blocker at `blocker`
@@ -85,13 +112,37 @@ GN_FN float gn_pcss_width(GnPcssLight half_light, float spread) {
     return 2.0f * max(length(half_light.right_ws), length(half_light.up_ws)) * spread;
 }
 
-// Where on the map the receiver sees point q of the light through a plane across the axis: seen from the light's centre it is
-// where the receiver would be if it moved by `spread` times the point. From the receiver's own place.
+// Where on the map the receiver sees the light's points through a plane across the axis: seen from the light's centre each is where
+// the receiver would be if it moved by `spread` times the point. Ways of the points (1, 0) and (0, 1) from the receiver's own
+// place, and what the view's perspective divides them by.
+struct GnPcssKernel {
+    vec2 right_ts;
+    vec2 up_ts;
+    vec2 fall;
+};
+
+GN_FN GnPcssKernel gn_pcss_kernel(GnLookup at, GnPcssLight half_light, float spread) {
+    vec3 right_ws = spread * half_light.right_ws;
+    vec3 up_ws = spread * half_light.up_ws;
+    GnPcssKernel kernel;
+    kernel.right_ts = vec2(dot(at.projected.du_ws, right_ws), dot(at.projected.dv_ws, right_ws));
+    kernel.up_ts = vec2(dot(at.projected.du_ws, up_ws), dot(at.projected.dv_ws, up_ws));
+    kernel.fall = vec2(0.0f);
+    if (GN_VIEW_KIND != 0 && !gn_bent(at.view)) {
+        vec3 row_w = gn_row(at.view.cs_from_ws, 3);
+        kernel.fall = vec2(dot(row_w, right_ws), dot(row_w, up_ws)) / gn_clip(at.view, at.receiver.p_ws).w;
+    }
+    return kernel;
+}
+
+// The way of point q.
+GN_FN vec2 gn_pcss_way(GnPcssKernel kernel, vec2 q) {
+    vec2 way_ts = q.x * kernel.right_ts + q.y * kernel.up_ts;
+    return GN_VIEW_KIND == 0 ? way_ts : way_ts / max(1.0f + dot(kernel.fall, q), 0.1f);
+}
+
 GN_FN vec2 gn_pcss_shift(GnLookup at, GnPcssLight half_light, vec2 q, float spread) {
-    vec3 point_ws = q.x * half_light.right_ws + q.y * half_light.up_ws;
-    vec3 way_ws = spread * point_ws;
-    float fall = gn_bent(at.view) ? 0.0f : dot(gn_row(at.view.cs_from_ws, 3), way_ws) / gn_clip(at.view, at.receiver.p_ws).w;
-    return vec2(dot(at.projected.du_ws, way_ws), dot(at.projected.dv_ws, way_ws)) / max(1.0f + fall, 0.1f);
+    return gn_pcss_way(gn_pcss_kernel(at, half_light, spread), q);
 }
 
 // Half the sides of the rectangle of the map around all such points.
@@ -119,13 +170,40 @@ GN_FN GnPcssWiden gn_pcss_widen(GnLookup at, GnPcssLight half_light, float sprea
     return widen;
 }
 
-// Point i of n in the light's own shape, turned or moved by the pixel's noise.
-GN_FN vec2 gn_pcss_point(bool square, int i, int n, float noise) {
-    if (square) {
-        vec2 cell = vec2(0.75487767f, 0.56984029f) * float(i) + vec2(noise, fract(7.0f * noise + 0.5f));
-        return 2.0f * fract(cell) - 1.0f;
+// Where point q of a kernel so lengthened is read.
+GN_FN vec2 gn_pcss_tap_ts(GnLookup at, GnPcssKernel kernel, GnPcssWiden widen, vec2 q) {
+    return at.projected.uv_ts + gn_pcss_way(kernel, q) + q.x * widen.right_ts + q.y * widen.up_ts;
+}
+
+// Points in the light's own shape, one after the other, turned or moved by the pixel's noise: of a disc gn_vogel's, each of which
+// is the one before turned by the golden angle, and farther out.
+struct GnPcssPoints {
+    bool square;
+    float count;
+    float taken;
+    vec2 turn;  // of a square the first point's place
+};
+
+GN_FN GnPcssPoints gn_pcss_points(bool square, int count, float noise) {
+    float angle = 6.28318531f * noise;
+    GnPcssPoints points;
+    points.square = square;
+    points.count = float(count);
+    points.taken = 0.0f;
+    points.turn = square ? vec2(noise, fract(7.0f * noise + 0.5f)) : vec2(cos(angle), sin(angle));
+    return points;
+}
+
+GN_FN vec2 gn_pcss_next(GN_INOUT(GnPcssPoints) points) {
+    vec2 q = 2.0f * fract(vec2(0.75487767f, 0.56984029f) * points.taken + points.turn) - 1.0f;
+    if (!points.square) {
+        // The cosine and sine of 2.39996323.
+        vec2 golden = vec2(-0.73736888f, 0.67549029f);
+        q = sqrt((points.taken + 0.5f) / points.count) * points.turn;
+        points.turn = vec2(points.turn.x * golden.x - points.turn.y * golden.y, points.turn.x * golden.y + points.turn.y * golden.x);
     }
-    return gn_vogel(i, n, 6.28318531f * noise);
+    points.taken += 1.0f;
+    return q;
 }
 
 // What of the light's extent is between receiver and blockers.
@@ -170,15 +248,17 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
 //   #define GN_CROSSING
 //   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
 //   with #define GN_LIGHT_VIEW(i) at.view
-float gn_pcss_seen(GnLookup at, GnLookup tap, vec3 axis, vec2 tap_ts, vec2 uv_ts, float plane, float depth) {
+float gn_pcss_seen(GnLookup at, GnLookup tap, GnPcssMetres metres, vec2 tap_ts, vec2 uv_ts, float plane, float depth) {
 #ifdef GN_CROSSING
     // Parallel views begin at different depths: as much nearer than the receiver's plane in its own view as in the tap's.
     if (tap.view.eye_ws.w <= 0.5) {
-        float here = gn_pcss_distance(at.view, axis, tap_ts, gn_depth_at(at.projected, tap_ts, at.bias));
+        float here = gn_pcss_distance(metres, at.view, tap_ts, gn_depth_at(at.projected, tap_ts, at.bias));
         return here - (plane - depth) * tap.projected.metres_per_depth;
     }
+    return gn_pcss_distance(gn_pcss_metres(tap.view, metres.axis_ws), tap.view, uv_ts, depth);
+#else
+    return gn_pcss_distance(metres, at.view, uv_ts, depth);
 #endif
-    return gn_pcss_distance(tap.view, axis, uv_ts, depth);
 }
 
 // Where what hides the light from a receiver can lie.
@@ -191,14 +271,15 @@ struct GnPcssRegion {
 
 // From the nearest that the whole view holds, then from the nearest in the region that follows from it. `least`: texels by
 // which kernels reach farther than the light's points.
-GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, vec3 axis, float least, bool early_out) {
+GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, float least,
+                            bool early_out) {
     GnPcssRegion region;
     region.visibility = -1.0;
-    region.receiver = gn_pcss_distance(at.view, axis, at.projected.uv_ts, at.projected.depth);
+    region.receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     vec2 least_ts = vec2(least * at.projected.texel_ts);
     vec2 found = gn_pcss_extremes(at, pyramid, at.projected.bounds_ts.zw - at.projected.bounds_ts.xy);
     for (int step = 0; step < 3; ++step) {
-        region.nearest = gn_pcss_distance(at.view, axis, at.projected.uv_ts, max(found.x, 0.0));
+        region.nearest = gn_pcss_distance(metres, at.view, at.projected.uv_ts, max(found.x, 0.0));
         region.spread = gn_pcss_spread_at(at, region.receiver, region.nearest);
         found = gn_pcss_extremes(at, pyramid, gn_pcss_reach(at, half_light, region.spread) + least_ts);
         if (found.y >= 0.0 && early_out) {

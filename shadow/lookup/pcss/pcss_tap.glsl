@@ -17,7 +17,8 @@ struct GnPcssTap {
     bool lit;
 };
 
-GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, vec3 axis, vec2 tap_ts) {
+// `metres` of the receiver's own view.
+GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, GnPcssMetres metres, vec2 tap_ts) {
     vec2 uv_ts;
     GnLookup tap = gn_tap_reader(at, tap_ts, uv_ts);
     vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
@@ -25,7 +26,7 @@ GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, vec3 axis, vec2 tap_ts)
     float occluder = gn_map_texel(depth, tap, texel).r;
     float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
     bool lit = plane <= occluder;
-    float distance = gn_pcss_seen(at, tap, axis, tap_ts, uv_ts, plane, occluder);
+    float distance = gn_pcss_seen(at, tap, metres, tap_ts, uv_ts, plane, occluder);
     return GnPcssTap(distance, lit);
 }
 

@@ -72,8 +72,8 @@ struct GnSssmSum {
     float before;
 };
 
-void gn_sssm_add(GnLookup at, sampler2DArray depth, vec3 axis, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
-    GnPcssTap tap = gn_pcss_tap(at, depth, axis, tap_ts);
+void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
+    GnPcssTap tap = gn_pcss_tap(at, depth, metres, tap_ts);
     sum.weight += weight;
     if (!tap.lit) {
         sum.hidden += weight;
@@ -82,16 +82,16 @@ void gn_sssm_add(GnLookup at, sampler2DArray depth, vec3 axis, float receiver, v
 }
 
 // The row y of the kernel that the light's points make through a plane at `spread`.
-void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, vec3 axis, float receiver, float spread, float y,
+void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread, float y,
                  GnSssmParams params, inout GnSssmSum sum) {
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
     GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, params.least * at.projected.texel_ts);
     float noise = gn_gradient_noise(at.receiver.p_ss);
     float weight = gn_sssm_weight(half_light.square, y);
     for (int i = 0; i < params.side; ++i) {
         float x = gn_sssm_point(i, params.side, noise, params.jitter);
-        vec2 q = vec2(x, y);
-        vec2 tap_ts = at.projected.uv_ts + gn_pcss_shift(at, half_light, q, spread) + q.x * widen.right_ts + q.y * widen.up_ts;
-        gn_sssm_add(at, depth, axis, receiver, tap_ts, weight * gn_sssm_weight(half_light.square, x), sum);
+        vec2 tap_ts = gn_pcss_tap_ts(at, kernel, widen, vec2(x, y));
+        gn_sssm_add(at, depth, metres, receiver, tap_ts, weight * gn_sssm_weight(half_light.square, x), sum);
     }
 }
 
@@ -100,14 +100,14 @@ void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, vec3
 // receiver, and the region's spread, the last two packed.
 vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         float before = gn_sssm_pack(max(region.receiver - region.nearest, 0.0));
         return region.visibility > 0.0 ? vec3(0.0) : vec3(1.0, before, 1.0);
     }
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    gn_sssm_row(at, depth, half_light, axis, region.receiver, region.spread, 0.0, params, sum);
+    gn_sssm_row(at, depth, half_light, metres, region.receiver, region.spread, 0.0, params, sum);
     return vec3(sum.hidden / sum.weight, gn_sssm_pack(sum.before / max(sum.hidden, 1.0e-6)), gn_sssm_pack(region.spread));
 }
 #elif defined(GN_SSSM_FILTER)
@@ -120,7 +120,7 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     }
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    gn_sssm_row(at, depth, half_light, gn_pcss_axis(at.light, at.receiver.p_ws), 1.0, spread, 0.0, params, sum);
+    gn_sssm_row(at, depth, half_light, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), 1.0, spread, 0.0, params, sum);
     return 1.0 - sum.hidden / sum.weight;
 }
 #elif defined(GN_SSSM_GRID)
@@ -129,22 +129,22 @@ struct GnSssmFound {
     float before;      // metres along the axis from what hides the light to the receiver, on average
 };
 
-GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, vec3 axis, float receiver, float spread,
+GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread,
                        GnSssmParams params) {
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
     for (int j = 0; j < params.side; ++j) {
-        gn_sssm_row(at, depth, half_light, axis, receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
+        gn_sssm_row(at, depth, half_light, metres, receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
     }
     return sum;
 }
 
 GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light, GnSssmParams params) {
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return GnSssmFound(region.visibility, 0.0);
     }
-    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, axis, region.receiver, region.spread, params);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, metres, region.receiver, region.spread, params);
     return sum.hidden > 0.0 ? GnSssmFound(-1.0, sum.before / sum.hidden) : GnSssmFound(1.0, 0.0);
 }
 
@@ -155,7 +155,7 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
         return found.visibility;
     }
     float spread = gn_sssm_spread(at.light, at.receiver.p_ws, found.before);
-    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_axis(at.light, at.receiver.p_ws), 1.0, spread, params);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), 1.0, spread, params);
     return 1.0 - sum.hidden / sum.weight;
 }
 

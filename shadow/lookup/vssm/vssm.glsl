@@ -79,8 +79,8 @@ struct GnVssmFound {
 
 // What hides the light in each part of the region where anything can, and how far away it is.
 GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnVssmParams params) {
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, params.early_out != 0);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     GnVssmFound result = GnVssmFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
@@ -97,7 +97,7 @@ GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half
         vec2 found = GN_MAP_BLOCKERS(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
         float depth = clamp(found.y, 0.0, max(part.projected.depth, 0.0));
         hidden += found.x;
-        distance += found.x * gn_pcss_seen(at, part, axis, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
+        distance += found.x * gn_pcss_seen(at, part, metres, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
     }
     if (hidden <= 1.0e-3 * float(parts)) {
         result.visibility = 1.0;

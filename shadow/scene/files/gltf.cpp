@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0: nodes become instances of primitives, lights and cameras.
-#include "shadow/scene/files/gltf_data.h"
+#include "shadow/scene/files/gltf_pictures.h"
 
 #include <algorithm>
 
@@ -13,7 +13,8 @@ using namespace gltf;
 // Builds the meshes that nodes ask for, each primitive once.
 class Builder {
   public:
-    Builder(File& file, Model& model) : file_(file), model_(model), uv_uses_(load_materials(file, model)) {}
+    Builder(File& file, Model& model, Pictures& pictures)
+        : file_(file), model_(model), uv_uses_(load_materials(file, model, pictures)) {}
 
     void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Joints* joints) {
         if (node.mesh < 0) {
@@ -182,7 +183,8 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
     File file = parse_file(path, assets);
     Model model;
     note_left_out(file);
-    Builder builder(file, model);
+    Pictures pictures(file, model);
+    Builder builder(file, model, pictures);
 
     // Where every node stands; joints are nodes too.
     const std::vector<PlacedNode> nodes = walk_nodes(file);
@@ -197,7 +199,7 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
         if (node.visible) {
             const std::optional<Joints> joints = rest_joints(file, data.mesh >= 0 ? data.skin : -1, world);
             builder.add(data, node.ws_from_node, joints ? &*joints : nullptr);
-            if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node)) {
+            if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node, pictures)) {
                 model.lights.push_back(std::move(*light));
             }
         }

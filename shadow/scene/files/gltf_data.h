@@ -78,8 +78,10 @@ struct UvUse {
     glm::dmat3 uv_from_file{1.0};
 };
 
+class Pictures;  // gltf_pictures.h
+
 /// Materials and the textures they use; the last material is the default one.
-std::vector<UvUse> load_materials(File& file, Model& model);
+std::vector<UvUse> load_materials(File& file, Model& model, Pictures& pictures);
 /// What extras.gnomon of a node, a mesh or a material says about casting and receiving.
 struct Orders {
     std::optional<bool> casts, receives;
@@ -95,8 +97,9 @@ std::span<const char* const> light_keys();
 /// Keys of extras.gnomon that order casting and receiving.
 std::span<const char* const> order_keys();
 
-/// A node's light; nothing where the node has none or it is unusable (with a note).
-std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node);
+/// A node's light and the picture that it shows; nothing where the node has none or it is unusable (with a note).
+std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node,
+                                      Pictures& pictures);
 /// What extras.gnomon of the scene that is shown says of the light from everywhere; nothing where it says nothing, or (with
 /// a note) nothing usable.
 std::optional<Light> load_environment(File& file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_lights_punctual with sizes from extras.gnomon, and cameras. docs/scenes.md has the schema.
-#include "shadow/scene/files/gltf_data.h"
+#include "shadow/scene/emission.h"
+#include "shadow/scene/files/gltf_pictures.h"
 
 #include <algorithm>
 
@@ -24,18 +25,25 @@ vec4 axis_of(const dmat4& ws_from_node, int column, double sign) {
     return {vec3(unit), 0.0F};
 }
 
-constexpr std::array known_keys{"radius", "angular_radius", "angular_diameter_deg", "rectangle", "intensity"};
+constexpr std::array known_keys{"radius",    "angular_radius", "angular_diameter_deg",
+                                "rectangle", "intensity",      "texture"};
 
 bool is_one_of(std::span<const char* const> keys, const std::string& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+/// extras.gnomon, null where there is none.
+const tinygltf::Value* gnomon_of(const tinygltf::Value& extras) {
+    const bool says = extras.IsObject() && extras.Has("gnomon") && extras.Get("gnomon").IsObject();
+    return says ? &extras.Get("gnomon") : nullptr;
+}
+
 // Sizes by extras.gnomon of the light, then of the node that carries it, which may also say whether its mesh casts.
 void apply_extras(File& file, const tinygltf::Value& extras, Light& light, bool of_node) {
-    if (!extras.IsObject() || !extras.Has("gnomon") || !extras.Get("gnomon").IsObject()) {
+    if (gnomon_of(extras) == nullptr) {
         return;
     }
-    const tinygltf::Value& sizes = extras.Get("gnomon");
+    const tinygltf::Value& sizes = *gnomon_of(extras);
     GnLight& shape = light.shape;
     for (const std::string& key : sizes.Keys()) {
         if (!is_one_of(known_keys, key) && !(of_node && is_one_of(order_keys(), key))) {
@@ -65,6 +73,30 @@ void apply_extras(File& file, const tinygltf::Value& extras, Light& light, bool 
     shape.intensity = narrow(number(sizes, "intensity").value_or(static_cast<double>(shape.intensity)));
 }
 
+// The picture that a rectangle shows: the file's texture that the node names, else its light.
+void apply_texture(File& file, const tinygltf::Value& of_node, const tinygltf::Value& of_light, Light& light,
+                   Pictures& pictures) {
+    const auto names = [](const tinygltf::Value& extras) {
+        return gnomon_of(extras) != nullptr && gnomon_of(extras)->Has("texture");
+    };
+    if (!names(of_node) && !names(of_light)) {
+        return;
+    }
+    if (!gn_takes_emission(light.shape)) {
+        add_note(file.notes,
+                 fmt::format("Light '{}': extras.gnomon.texture is of rectangles; it was ignored.", light.name));
+        return;
+    }
+    const double index = number(*gnomon_of(names(of_node) ? of_node : of_light), "texture").value_or(-1);
+    if (!(index >= 0 && index < static_cast<double>(file.data.textures.size()))) {
+        add_note(file.notes, fmt::format("Light '{}': extras.gnomon.texture is the index of one of the file's {} "
+                                         "textures; the light keeps its plain colour.",
+                                         light.name, file.data.textures.size()));
+        return;
+    }
+    set_emission(light.shape, pictures.shown_by_light(static_cast<int>(index)));
+}
+
 std::optional<std::uint32_t> kind_of(const std::string& type) {
     return type == "directional" ? std::optional<std::uint32_t>(GN_LIGHT_DIRECTIONAL)
            : type == "spot"      ? std::optional<std::uint32_t>(GN_LIGHT_SPOT)
@@ -78,7 +110,8 @@ std::span<const char* const> light_keys() {
     return known_keys;
 }
 
-std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node) {
+std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, const dmat4& ws_from_node,
+                                      Pictures& pictures) {
     // The node names a light of the file.
     const auto found = node.extensions.find("KHR_lights_punctual");
     if (found == node.extensions.end()) {
@@ -115,6 +148,7 @@ std::optional<PlacedLight> load_light(File& file, const tinygltf::Node& node, co
     shape.cos_outer = narrow(std::cos(data.spot.outerConeAngle));
     apply_extras(file, data.extras, placed.light, false);
     apply_extras(file, node.extras, placed.light, true);
+    apply_texture(file, node.extras, data.extras, placed.light, pictures);
     return placed;
 }
 

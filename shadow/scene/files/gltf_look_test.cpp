@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a glTF file says about light, surface and view.
+#include "shadow/scene/emission.h"
 #include "shadow/scene/testing.h"
 
 namespace gn {
@@ -173,6 +174,62 @@ TEST(GltfMaterial, MirroredRepetitionTurnsEverySecondPicture) {
     EXPECT_EQ(scene.uvs[scene.triangles[0].y], vec2(0.5F, 0));
     EXPECT_EQ(scene.uvs[scene.triangles[0].z], vec2(0, 1));
     EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
+}
+
+/// One light, told once by a glTF file and once by a .toml scene: both show the same picture, the same way round.
+TEST(GltfLight, ARectangleShowsATextureOfItsFile) {
+    const std::string pictures = fmt::format(
+        R"("textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":[{{"wrapS":33648}}],"images":[{{"uri":"no.png"}},{{"uri":"{}"}}],)",
+        two_texels);
+    const auto lit = [&](const std::string& light, const std::string& node = "") {
+        GltfText gltf = with_light(light, node);
+        gltf.more += pictures;
+        return load(gltf);
+    };
+    const Scene scene =
+        lit(R"({"type":"point","extras":{"gnomon":{"rectangle":{"width":2,"height":1},"intensity":5,"texture":0}}})",
+            R"("extras":{"gnomon":{"texture":1}},)");
+    const GnLight& shape = scene.lights[0].shape;
+    const Image8* const picture = shown_picture(scene, shape);
+    ASSERT_NE(picture, nullptr) << (scene.notes.empty() ? "" : scene.notes[0]);
+
+    const TempFolder folder;
+    Image panel(2, 1, 3, 0);
+    panel.at(0, 0, 1) = 1;
+    panel.at(1, 0, 0) = 1;
+    write_png(folder.path() / "panel.png", panel);
+    const Scene told = load_scene(folder.write("t.toml", R"(
+[[light]]
+kind = "rectangle"
+position = [1, 2, 3]
+direction = [0, 0, -1]
+size = [2, 1]
+intensity = 5
+texture = "panel.png"
+)"));
+    const GnLight& other = told.lights[0].shape;
+    ASSERT_NE(shown_picture(told, other), nullptr);
+    EXPECT_EQ(picture->width, 2) << "a sampler that mirrors says nothing of a light";
+    EXPECT_EQ(emission_at(*picture, vec2(0, 0.5F)), vec3(0, 1, 0));
+    EXPECT_EQ(shape.half_size, other.half_size);
+    for (const vec2 x : {vec2(-0.5F, 0.25F), vec2(0.5F, 0.75F)}) {
+        EXPECT_EQ(gn_emission_place(shape, x), gn_emission_place(other, x));
+        EXPECT_EQ(emission_at(*picture, gn_emission_place(shape, x)),
+                  emission_at(*shown_picture(told, other), gn_emission_place(other, x)));
+    }
+
+    // What cannot be shown is said.
+    EXPECT_TRUE(has_note(lit(R"({"type":"point","extras":{"gnomon":{"texture":1}}})"), "is of rectangles"));
+    const auto of = [&](const char* texture) {
+        return lit(fmt::format(
+            R"({{"type":"point","extras":{{"gnomon":{{"rectangle":{{"width":2,"height":1}},"texture":{}}}}}}})",
+            texture));
+    };
+    for (const char* texture : {"2", "-1", "\"panel\""}) {
+        EXPECT_TRUE(has_note(of(texture), "one of the file's 2 textures")) << texture;
+    }
+    EXPECT_TRUE(has_note(of("0"), "the light keeps its plain colour"));
+    EXPECT_EQ(shown_picture(of("0"), of("0").lights[0].shape), nullptr);
 }
 
 }  // namespace

@@ -135,8 +135,7 @@ Material read_material(File& file, const tinygltf::Material& data, Pictures& pic
 
 }  // namespace
 
-std::vector<UvUse> load_materials(File& file, Model& model) {
-    Pictures pictures(file, model);
+std::vector<UvUse> load_materials(File& file, Model& model, Pictures& pictures) {
     std::vector<UvUse> uses;
     for (const tinygltf::Material& data : file.data.materials) {
         model.materials.push_back(read_material(file, data, pictures));

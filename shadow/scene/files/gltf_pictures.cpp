@@ -11,6 +11,8 @@ namespace gn::gltf {
 
 namespace {
 
+constexpr const char* plain_surface = "the surface keeps its plain colour";
+
 // As the parser decodes the name of a file: %20 is a blank, and so is +.
 std::string decoded_uri(std::string_view uri) {
     std::string name;
@@ -52,14 +54,14 @@ bool Pictures::exists(int image) const {
     return image >= 0 && static_cast<std::size_t>(image) < file_.data.images.size();
 }
 
-// The pictures that stand for one texture, the preferred first: WebP is smaller and may be the only one.
-std::vector<int> Pictures::sources(int texture_index) {
+// The pictures that stand for one texture, the preferred first: WebP is smaller and may be the only one. `otherwise` is what is
+// so where there is none.
+std::vector<int> Pictures::sources(int texture_index, const char* otherwise) {
     if (texture_index < 0) {
         return {};
     }
     if (static_cast<std::size_t>(texture_index) >= file_.data.textures.size()) {
-        add_note(file_.notes,
-                 fmt::format("Texture {} does not exist; the surface keeps its plain colour.", texture_index));
+        add_note(file_.notes, fmt::format("Texture {} does not exist; {}.", texture_index, otherwise));
         return {};
     }
     const tinygltf::Texture& texture = file_.data.textures[static_cast<std::size_t>(texture_index)];
@@ -76,21 +78,33 @@ std::vector<int> Pictures::sources(int texture_index) {
     }
     if (found.empty()) {
         add_note(file_.notes,
-                 fmt::format("Texture {} names no picture that can be read; the surface keeps its plain colour.",
-                             texture_index));
+                 fmt::format("Texture {} names no picture that can be read; {}.", texture_index, otherwise));
     }
     return found;
 }
 
 int Pictures::texture(int texture_index) {
-    for (const int image : sources(texture_index)) {
+    for (const int image : sources(texture_index, plain_surface)) {
         const int index = texture(texture_index, image);
         if (index >= 0) {
             say_failures(fmt::format("'{}' is taken instead", shown_name(image)));
             return index;
         }
     }
-    say_failures("the surface keeps its plain colour");
+    say_failures(plain_surface);
+    return -1;
+}
+
+int Pictures::shown_by_light(int texture_index) {
+    constexpr const char* plain_light = "the light keeps its plain colour";
+    for (const int image : sources(texture_index, plain_light)) {
+        if (std::optional<Image8> picture = decode(image)) {
+            say_failures(fmt::format("'{}' is taken instead", shown_name(image)));
+            model_.textures.push_back({shown_name(image), std::move(*picture), false, false});
+            return static_cast<int>(model_.textures.size()) - 1;
+        }
+    }
+    say_failures(plain_light);
     return -1;
 }
 
@@ -138,7 +152,7 @@ int Pictures::texture(int texture_index, int image_index) {
 }
 
 vec2 Pictures::mean_green_blue(int texture_index) {
-    for (const int source : sources(texture_index)) {
+    for (const int source : sources(texture_index, plain_surface)) {
         const auto known = means_.find(source);
         if (known != means_.end()) {
             return known->second;
@@ -156,7 +170,7 @@ vec2 Pictures::mean_green_blue(int texture_index) {
             return means_[source];
         }
     }
-    say_failures("the surface keeps its plain colour");
+    say_failures(plain_surface);
     return vec2(1.0F);
 }
 

@@ -14,6 +14,8 @@ class Pictures {
     /// Index into model.textures, or -1. Where a texture is repeated in mirror images, the picture and its image side by side
     /// are one period of plain repetition: coordinates take share_of_period() of it.
     int texture(int texture_index);
+    /// The same of a texture as a light shows it: once, whatever its sampler says of repetition.
+    int shown_by_light(int texture_index);
     /// One, or a half along each axis in which the texture is mirrored.
     [[nodiscard]] dvec2 share_of_period(int texture_index) const;
     /// Mean green and blue of a picture, (1, 1) without one.
@@ -21,7 +23,7 @@ class Pictures {
 
   private:
     [[nodiscard]] bool exists(int image) const;
-    std::vector<int> sources(int texture_index);
+    std::vector<int> sources(int texture_index, const char* otherwise);
     int texture(int texture_index, int image_index);
     [[nodiscard]] std::string shown_name(int image) const;
     [[nodiscard]] std::span<const std::byte> bytes_of(int image) const;
