@@ -79,6 +79,10 @@ inline constexpr double usual_near = 0.005;
 /// `pseudo_near` as a share of the farthest receiver's depth: nearer ones are in the map but do not steer the warp.
 std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
                                const Recipe& recipe, double pseudo_near);
+/// The same where depth grows along another direction of the world than the camera's axis, such as a side of its frustum: y runs
+/// along its image, whatever angle view and light have, and nothing fades.
+std::optional<Plane2> plane_along(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                                  const Recipe& recipe, double pseudo_near, dvec3 along_ws);
 
 /// The views of a part: `choose` gets the plane and returns the warped view. Where there is nothing to warp (the view
 /// looks along the light, no depth, an orthographic camera, receivers around the light) the views are `fit`'s.
