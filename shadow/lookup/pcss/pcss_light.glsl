@@ -59,7 +59,7 @@ GN_FN float gn_pcss_distance(GnLightView view, vec3 axis, vec2 uv_ts, float dept
     if (view.eye_ws.w <= 0.5f || gn_bent(view)) {
         return depth * view.metres_per_depth;
     }
-    vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / vec2(view.rect_ts.z, view.rect_ts.w) * 2.0f - 1.0f;
+    vec2 p_ndc = gn_ndc_at(view, uv_ts);
     vec4 seen_ws = view.ws_from_cs * vec4(p_ndc.x, p_ndc.y, 0.5f, 1.0f);
     vec3 ray_ws = vec3(seen_ws) / seen_ws.w - vec3(view.eye_ws);
     float eye = dot(view.depth_from_ws, vec4(vec3(view.eye_ws), 1.0f));
@@ -91,7 +91,8 @@ GN_FN vec2 gn_pcss_shift(GnLookup at, GnPcssLight half_light, vec2 q, float spre
     vec3 point_ws = q.x * half_light.right_ws + q.y * half_light.up_ws;
     vec3 way_ws = spread * point_ws;
     float fall = gn_bent(at.view) ? 0.0f : dot(gn_row(at.view.cs_from_ws, 3), way_ws) / gn_clip(at.view, at.receiver.p_ws).w;
-    return vec2(dot(at.projected.du_ws, way_ws), dot(at.projected.dv_ws, way_ws)) / max(1.0f + fall, 0.1f);
+    vec2 shift_ts = vec2(dot(at.projected.du_ws, way_ws), dot(at.projected.dv_ws, way_ws)) / max(1.0f + fall, 0.1f);
+    return GN_VIEW_KIND >= 3 ? vec2(shift_ts.x, gn_log_unstep(shift_ts.y, at.projected.rows)) : shift_ts;
 }
 
 // Half the sides of the rectangle of the map around all such points.
