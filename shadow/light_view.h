@@ -19,9 +19,10 @@ struct GnLightView {
     float resolution GN_DEFAULT(1.0f);        ///< texels of the whole layer along one side
     int layer GN_DEFAULT(0);
     float grid GN_DEFAULT(0.0f);  ///< affine views that keep their texels: rounds clip coordinates, see gn_clip; else 0
-    float paraboloid
-        GN_DEFAULT(0.0f);  ///< above 0: cs_from_ws gives metres in the light's frame, the map covers this far
-                           ///< in the coordinates of shadow/receiver/paraboloid.glsl, depth is the distance
+    /// What bends straight lines on the map. Above 0, a paraboloid: cs_from_ws gives metres in the light's frame, the map covers
+    /// this far in the coordinates of shadow/receiver/paraboloid.glsl, depth is the distance. Below 0, logarithmic: the rows are
+    /// those of shadow/receiver/logarithm.glsl, whose rate is its amount.
+    float paraboloid GN_DEFAULT(0.0f);
 };
 
 #ifdef __cplusplus

@@ -188,6 +188,7 @@ enum class ViewKind {
     affine,       ///< w = 1 everywhere, and clip z is the linear depth: maps of it alone need no fragments
     perspective,  ///< any matrix, affine ones among them; fragments write the linear depth
     paraboloid,   ///< shadow/receiver/paraboloid.glsl
+    logarithmic,  ///< shadow/receiver/logarithm.glsl, or perspective views beside such
 };
 /// The narrowest kind that views made on the CPU belong to.
 ViewKind kind_of(std::span<const GnLightView> views);

@@ -86,7 +86,7 @@ TEST(OrthographicRendered, RecipesErrAsInPerspective) {
 TEST(OrthographicRendered, WarpedMapsAreTheFittedOne) {
     const Scene scene = seen_in_parallel(load_scene("contact"), 4);
     const auto fitted = test::visibility_of(scene, "hard,placement=fit,resolution=256", size);
-    for (const char* placement : {"lispsm", "tsm", "psm"}) {
+    for (const char* placement : {"lispsm", "tsm", "psm", "logpsm"}) {
         EXPECT_EQ(test::visibility_of(scene, fmt::format("hard,placement={},resolution=256", placement), size), fitted)
             << placement;
     }

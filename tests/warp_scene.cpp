@@ -23,7 +23,10 @@ Scene long_floor(double near, double far, vec3 to_light) {
 
 dvec2 uv_of(const GnLightView& view, dvec3 p_ws) {
     const dvec4 p_cs = dmat4(view.cs_from_ws) * dvec4(p_ws, 1);
-    return dvec2(p_cs) / p_cs.w * 0.5 + 0.5;
+    const dvec2 p_ndc = dvec2(p_cs) / p_cs.w;
+    // The rows of a logarithmic view, shadow/receiver/logarithm.glsl.
+    const double rate = -static_cast<double>(view.paraboloid);
+    return {p_ndc.x * 0.5 + 0.5, rate > 0 ? -std::log(p_ndc.y) / rate : p_ndc.y * 0.5 + 0.5};
 }
 
 double error_along(const GnLightView& view, dvec3 p_ws, dvec3 direction_ws, double depth) {

@@ -14,8 +14,7 @@ namespace gn::glsl {
 
 // The point of uv_ts's ray at a linear depth.
 GN_FN vec3 gn_point_at(GnLightView view, vec2 uv_ts, float depth) {
-    vec2 extent_ts = vec2(view.rect_ts.z, view.rect_ts.w);
-    vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / extent_ts * 2.0f - 1.0f;
+    vec2 p_ndc = gn_ndc_at(view, uv_ts);
     if (gn_bent(view)) {
         vec3 p_ls = gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
         return vec3(view.ws_from_cs * vec4(p_ls, 1.0f));

@@ -9,12 +9,12 @@ namespace {
 constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 in_position_ws;
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
-#if defined(GN_FRAGMENT) && !defined(GN_PARABOLOID)
+#if defined(GN_FRAGMENT) && !defined(GN_CURVED)
 layout(location = 0) out float out_depth;
 #endif
 #ifdef GN_TILES
 layout(location = 7) flat out int out_view;
-#ifndef GN_PARABOLOID
+#ifndef GN_CURVED
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[4]; };
 #endif
 #endif
@@ -36,10 +36,12 @@ void main() {
 #ifdef GN_PARABOLOID
     // The frame of the light in units of depth; w carries the map's extent to the next stage.
     gl_Position = vec4(gl_Position.xyz / views[view].metres_per_depth, views[view].paraboloid);
+#elif defined(GN_LOGARITHM)
+    gl_Position.z = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
 #elif defined(GN_FRAGMENT)
     out_depth = dot(views[view].depth_from_ws, vec4(in_position_ws, 1.0));
 #endif
-#if defined(GN_TILES) && defined(GN_PARABOLOID)
+#if defined(GN_TILES) && defined(GN_CURVED)
     // A map without extent shows nothing.
     gl_Position.w = gn_tile_in(views[view], layer) ? gl_Position.w : 0.0;
 #elif defined(GN_TILES)
@@ -111,6 +113,7 @@ void main() {
 )";
 
 constexpr const char* fragment_head = R"(
+#include "shadow/receiver/logarithm.glsl"
 #include "shadow/receiver/paraboloid.glsl"
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
 #ifdef GN_PARABOLOID
@@ -118,16 +121,19 @@ layout(location = 0) in vec2 in_u;
 layout(location = 1) flat in vec3 in_a;
 layout(location = 2) flat in vec3 in_b;
 layout(location = 3) flat in vec3 in_c;
-#ifdef GN_MASKED
+#elif defined(GN_LOGARITHM)
+layout(location = 1) flat in vec4 in_a;
+layout(location = 2) flat in vec4 in_b;
+layout(location = 3) flat in vec4 in_c;
+#else
+layout(location = 0) in float in_depth;
+#endif
+#if defined(GN_MASKED) && defined(GN_CURVED)
 layout(location = 4) flat in vec3 in_mask_a;
 layout(location = 5) flat in vec3 in_mask_b;
 layout(location = 6) flat in vec3 in_mask_c;
-#endif
-#else
-layout(location = 0) in float in_depth;
-#ifdef GN_MASKED
+#elif defined(GN_MASKED)
 layout(location = 1) in vec3 in_mask;
-#endif
 #endif
 // Which view is drawn.
 #if defined(GN_TILES)
@@ -150,11 +156,23 @@ void main() {
         discard;
     }
     float in_depth = hit.w;
-#ifdef GN_MASKED
-    vec3 in_mask = hit.x * in_mask_a + hit.y * in_mask_b + hit.z * in_mask_c;
-#endif
+#elif defined(GN_LOGARITHM)
+    float hit_rate = max(-views[caster_view].paraboloid, 0.0);
+    vec4 hit_rect_ts = views[caster_view].rect_ts;
+    vec2 hit_texel = 2.0 / (views[caster_view].resolution * hit_rect_ts.zw);
+    vec2 hit_ndc = gn_log_ndc((gl_FragCoord.xy / views[caster_view].resolution - hit_rect_ts.xy) / hit_rect_ts.zw * 2.0 - 1.0, hit_rate);
+    vec3 hit_depths = vec3(in_a.z, in_b.z, in_c.z);
+    vec2 slope = gn_log_slope(hit_ndc, in_a.xyw, in_b.xyw, in_c.xyw, hit_depths, hit_rate) * hit_texel;
+    vec4 hit = gn_log_hit(hit_ndc, in_a.xyw, in_b.xyw, in_c.xyw);
+    if (hit.w < 0.0) {
+        discard;
+    }
+    float in_depth = dot(hit.xyz, hit_depths);
 #else
     vec2 slope = vec2(dFdx(in_depth), dFdy(in_depth));
+#endif
+#if defined(GN_MASKED) && defined(GN_CURVED)
+    vec3 in_mask = hit.x * in_mask_a + hit.y * in_mask_b + hit.z * in_mask_c;
 #endif
 #ifdef GN_MASKED
     if (textureLod(base_color_texture, in_mask.xy, 0.0).a * push.base_alpha * in_mask.z < push.alpha_cutoff) {
@@ -187,6 +205,7 @@ ShaderInputs caster_inputs(const LightViews& views, const SceneHandles& handles,
 RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant) {
     const bool write_depth = variant.kind != ViewKind::affine;
     const bool paraboloid = variant.kind == ViewKind::paraboloid;
+    const bool curved = paraboloid || variant.kind == ViewKind::logarithmic;
     const bool needs_fragment = variant.masked || write_depth || !pass.fragment.body.empty();
     // What a map's fragments read comes after what all stages do.
     const ShaderInputs shared = caster_inputs({}, {}, variant.masked);
@@ -199,14 +218,17 @@ RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant)
     defines += write_depth ? "#define GN_WRITE_DEPTH\n" : "";
     defines += variant.layered ? "#define GN_LAYERED\n" : "";
     defines += variant.tiles ? "#define GN_TILES\n" : "";
-    defines += paraboloid ? "#define GN_PARABOLOID\n" : "";
+    defines += curved ? "#define GN_CURVED\n" : "";
+    defines += curved ? (paraboloid ? "#define GN_PARABOLOID\n" : "#define GN_LOGARITHM\n") : "";
     defines += variant.faces.pushed ? "#define GN_PUSHED\n" : "";
 
     RasterDesc desc;
     desc.vertex = {ShaderKind::vertex, pass.name + ".vert", defines + types + shared.text() + vertex_text};
-    if (paraboloid) {
-        desc.geometry =
-            ShaderSource{ShaderKind::geometry, pass.name + ".geom", defines + types + shared.text() + paraboloid_text};
+    if (curved) {
+        desc.geometry = ShaderSource{
+            ShaderKind::geometry, pass.name + ".geom",
+            defines + types + shared.text() +
+                (paraboloid ? std::string(paraboloid_text) : include_line("shadow/casters/caster_rows.glsl"))};
     }
     if (needs_fragment) {
         desc.fragment = ShaderSource{ShaderKind::fragment, pass.name + ".frag",

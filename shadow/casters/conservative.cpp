@@ -116,7 +116,7 @@ struct Push {
 }  // namespace
 
 void add_conservative_passes(const FrameInput& input, const LightViews& views, const ConservativePass& pass) {
-    GN_CHECK(views.kind != ViewKind::paraboloid);
+    GN_CHECK(views.kind == ViewKind::affine || views.kind == ViewKind::perspective);
     if (input.handles.drawn != nullptr) {
         refuse(
             "pass '{}' asks which texels a triangle touches, which draws of a renderer's own do not tell; lend buffers",

@@ -20,8 +20,8 @@ struct ConservativePass {
     std::string functions;  ///< GLSL that needs them
     TextureHandle color;    ///< a 2D array of the views' layers and resolution, cleared to 0
 };
-/// One fragment for each texel that a triangle of a caster touches, both sides, masks whole. Views of every kind but
-/// paraboloids.
+/// One fragment for each texel that a triangle of a caster touches, both sides, masks whole. Affine and
+/// perspective views.
 void add_conservative_passes(const FrameInput& input, const LightViews& views, const ConservativePass& pass);
 
 }  // namespace gn

@@ -15,7 +15,7 @@ void ask_drawn(const FrameInput& input, const Recipe& recipe, const LightViews& 
     if (views.buffer.valid() || views.tiles) {
         refused(fmt::format("placement '{}' makes its views on the device and draws into them there", views.part->id));
     }
-    if (views.kind == ViewKind::paraboloid) {
+    if (views.kind != ViewKind::affine && views.kind != ViewKind::perspective) {
         refused(fmt::format("placement '{}' draws curved triangles", views.part->id));
     }
     if (recipe.casters == Casters::midpoint || recipe.casters == Casters::dual || recipe.casters == Casters::ids) {

@@ -157,7 +157,7 @@ void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut
 }
 
 void add_touched_texels(const FrameInput& input, const LightViews& views, const TouchedTexels& touched) {
-    GN_CHECK(views.kind != ViewKind::paraboloid);
+    GN_CHECK(views.kind == ViewKind::affine || views.kind == ViewKind::perspective);
     FrameGraph& graph = input.graph;
     const auto count = static_cast<std::uint32_t>(views.views.size());
     std::uint64_t slots = 0;

@@ -33,7 +33,7 @@ struct TouchedTexels {
     std::uint32_t shares = 1;       ///< workgroups that share one such triangle of at most 4096 texels
     std::vector<TriangleRun> runs;  ///< of Scene::triangles
 };
-/// Passes that do it in every view. Views of every kind but paraboloids.
+/// Passes that do it in every view. Affine and perspective views.
 void add_touched_texels(const FrameInput& input, const LightViews& views, const TouchedTexels& touched);
 /// Says in the frame's remarks, when its answer arrives, that a driver ended a loop of pass `name` early: where the uint `cut`
 /// is not 0.

@@ -188,7 +188,7 @@ void add_edge_regions(const FrameInput& input, const VolumeBuffers& buffers, con
 
 void add_edge_texels(const FrameInput& input, const VolumeBuffers& buffers, const LightViews& views,
                      const EdgeRegionPass& pass, TextureHandle image) {
-    GN_CHECK(!views.tiles && views.kind != ViewKind::paraboloid);
+    GN_CHECK(!views.tiles && (views.kind == ViewKind::affine || views.kind == ViewKind::perspective));
     std::vector<bool> begun(views.layers, false);
     for (std::size_t i = 0; i < views.views.size(); ++i) {
         const GnLightView& view = views.views[i];

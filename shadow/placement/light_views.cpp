@@ -242,6 +242,53 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Guard& gua
     views.set_data(glsl::GnFacesData{vec4(eye_ws, 1)});
 }
 
+namespace {
+
+/// Texels that a box spans, to the longer side, where its centre is.
+double texels_across(const dmat4& rows, const Box& box_ws, float resolution) {
+    const dvec4 centre(dvec3(box_ws.centre()), 1);
+    const dvec3 half(0.5F * box_ws.extent());
+    const double w = glm::dot(rows[3], centre);
+    double most = 0;
+    for (int axis = 0; axis < 2; ++axis) {
+        const dvec4 along = rows[axis] - rows[3] * (glm::dot(rows[axis], centre) / w);
+        most = std::max(most, glm::dot(glm::abs(dvec3(along)), half) / w);
+    }
+    // Clip space is two units wide, and half is half of the box.
+    return w > 0 ? most * static_cast<double>(resolution) : 1e300;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view, float least) {
+    // Before the near plane everything casts; behind the far plane nothing. The rectangle is extended a little: rounding
+    // moves vertices by less than a texel.
+    const dmat4 rows = glm::transpose(dmat4(view.cs_from_ws));
+    const double border = 1 + 4.0 / static_cast<double>(view.resolution);
+    const dvec4 w = border * rows[3];
+    std::vector<dvec4> inside{dvec4(0, 0, 0, 1 + 1e-3) - dvec4(view.depth_from_ws)};
+    for (int axis = 0; axis < 2; ++axis) {
+        inside.push_back(w - rows[axis]);
+        inside.push_back(w + rows[axis]);
+    }
+
+    // A box casts unless it lies wholly outside one of the planes.
+    std::vector<std::uint32_t> casters;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Box& box_ws = scene.objects[i].bounds_ws;
+        const dvec4 centre(dvec3(box_ws.centre()), 1);
+        const dvec3 half(0.5F * box_ws.extent());
+        if (std::all_of(inside.begin(), inside.end(),
+                        [&](const dvec4& plane) {
+                            return glm::dot(plane, centre) + glm::dot(glm::abs(dvec3(plane)), half) >= 0;
+                        }) &&
+            (least <= 0 || texels_across(rows, box_ws, view.resolution) >= static_cast<double>(least))) {
+            casters.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    return casters;
+}
+
 double near_plane(double far) {
     return 1e-4 * far;
 }

@@ -34,6 +34,10 @@ GnLightView square_perspective(vec3 eye_ws, vec3 axis_ws, vec3 up_ws, double tan
 /// reach; sets views, layers and data[0] = (light's position, 1).
 void add_cube_views(LightViews& views, const FrameInput& input, const Guard& guard, int resolution);
 
+/// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
+/// `least`: without those whose bounds span fewer texels than this to the longer side; 0 leaves none out.
+std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view, float least = 0);
+
 /// Distance to the near plane of a light whose receivers may be anywhere: small, since depth is linear and costs no precision.
 double near_plane(double far);
 

@@ -21,17 +21,6 @@ dvec2 turned(dvec2 q, double turn) {
     return {std::cos(turn) * q.x + std::sin(turn) * q.y, std::cos(turn) * q.y - std::sin(turn) * q.x};
 }
 
-/// The spots, each as a square of the kernels' reach.
-std::vector<dvec2> outline(const Plane2& plane) {
-    std::vector<dvec2> points;
-    for (const Spot& spot : plane.spots) {
-        for (const dvec2 side : {dvec2(-1, -1), dvec2(1, -1), dvec2(-1, 1), dvec2(1, 1)}) {
-            points.push_back(spot.q + plane.reach * side);
-        }
-    }
-    return points;
-}
-
 /// Width of the warped points for a centre; convex in it, as the difference of a maximum and a minimum of lines.
 double width_at(const Plane2& plane, const std::vector<dvec2>& points, Warp warp, double x_centre) {
     warp.x_centre = x_centre;
@@ -96,18 +85,34 @@ bool meets_horizon(const Plane2& plane, const Warp& warp) {
 
 }  // namespace
 
-Warp make_warp(const Plane2& plane, double strength, double turn) {
-    const std::vector<dvec2> points = outline(plane);
+std::vector<dvec2> outline(const Plane2& plane) {
+    std::vector<dvec2> points;
+    for (const Spot& spot : plane.spots) {
+        for (const dvec2 side : {dvec2(-1, -1), dvec2(1, -1), dvec2(-1, 1), dvec2(1, 1)}) {
+            points.push_back(spot.q + plane.reach * side);
+        }
+    }
+    return points;
+}
+
+Warp centred_warp(const Plane2& plane, const std::vector<dvec2>& points, double strength) {
     double first = plane.start;
     for (const dvec2 q : points) {
         first = std::min(first, q.y);
     }
-
     // Keep the centre of projection behind all receivers, those before the pseudo-near plane too.
-    Warp warp{strength, turn};
+    Warp warp{.strength = strength};
     if (first < plane.start) {
         warp.strength = std::min(warp.strength, 0.8 / (plane.start - first));
     }
+    warp.x_centre = narrowest_centre(plane, points, warp);
+    return warp;
+}
+
+Warp make_warp(const Plane2& plane, double strength, double turn) {
+    const std::vector<dvec2> points = outline(plane);
+    Warp warp = centred_warp(plane, points, strength);
+    warp.turn = turn;
 
     // Fit, and weaken the warp until the kernels at the far border end before the horizon.
     for (int step = 0; step < 200; ++step) {

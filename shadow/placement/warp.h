@@ -48,6 +48,11 @@ struct Warp {
     dvec2 min{0}, max{0};  ///< of the rectangle
 };
 
+/// What a map must hold: the spots, each as a square of the kernels' reach.
+std::vector<dvec2> outline(const Plane2& plane);
+/// As strong as asked, or less where receivers would reach the centre of projection, which lies where they are narrowest.
+/// Without a rectangle.
+Warp centred_warp(const Plane2& plane, const std::vector<dvec2>& points, double strength);
 /// Warps as strongly as asked, or less where receivers or kernels would reach the centre of projection or the horizon.
 /// The rectangle holds all spots and the kernels' reach.
 Warp make_warp(const Plane2& plane, double strength, double turn);
@@ -70,6 +75,10 @@ GnLightView even_view(const Plane2& plane, double eta);
 /// The same as first published: the centre lies n / sin(angle) before the nearest receiver, on the light's plane, whatever
 /// that does to texels.
 GnLightView sine_view(const Plane2& plane, double eta);
+/// A perspective whose rows then follow the logarithm of w: the same error along the view everywhere, at eta = 1 across it too.
+/// It fades as the even warp does, from eta down to -1, and is as strong as no receiver gets a coarser texel on screen by than the
+/// coarsest of the unwarped map.
+GnLightView logarithmic_view(const Plane2& plane, double eta);
 /// Receivers nearer than this share of the farthest one's depth do not steer the warp unless asked otherwise. Without it
 /// whatever stands before the camera takes the whole map; a ratio of depths of two hundred to one is what one map can serve.
 inline constexpr double usual_near = 0.005;
@@ -79,6 +88,10 @@ inline constexpr double usual_near = 0.005;
 /// `pseudo_near` as a share of the farthest receiver's depth: nearer ones are in the map but do not steer the warp.
 std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
                                const Recipe& recipe, double pseudo_near);
+/// The same where depth grows along another direction of the world than the camera's axis, such as a side of its frustum: y runs
+/// along its image, whatever angle view and light have, and nothing fades.
+std::optional<Plane2> plane_along(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                                  const Recipe& recipe, double pseudo_near, dvec3 along_ws);
 
 /// The views of a part: `choose` gets the plane and returns the warped view. Where there is nothing to warp (the view
 /// looks along the light, no depth, an orthographic camera, receivers around the light) the views are `fit`'s.

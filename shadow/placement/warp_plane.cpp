@@ -91,36 +91,31 @@ void set_angles(Plane2& plane, const View& view, dvec3 ray) {
         std::atan(std::min(view.tangent_x * size / std::max(x, 1e-12), view.tangent_y * size / std::max(y, 1e-12)));
 }
 
-}  // namespace
-
-std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
-                               const Recipe& recipe, double pseudo_near) {
-    // The warp answers pixels that grow with the distance; an orthographic camera's do not, and n is infinite.
-    if (is_orthographic(input.samples.camera)) {
-        return std::nullopt;
-    }
-    const View view = view_of_camera(input);
-    Plane2 plane = unturned(fitted);
-    const bool positional = fitted.eye_ws.w > 0.5F;
-
-    // The view direction's image at the body's centre.
-    dvec3 centre(0);
+dvec3 middle_of(const ConvexBody& body) {
     const std::vector<dvec3> vertices = body.vertices();
+    dvec3 centre(0);
     for (const dvec3& p : vertices) {
         centre += p / static_cast<double>(vertices.size());
     }
-    const dvec3 axis(vec3(input.light().shape.direction_ws));
-    set_angles(plane, view, positional ? glm::normalize(centre - dvec3(vec3(fitted.eye_ws))) : axis);
+    return centre;
+}
+
+/// Turns the plane along the image of a direction at the body's centre; false where it has none.
+bool turn_along(Plane2& plane, dvec3 centre, dvec3 along_ws) {
     plane.metre = 1 / glm::dot(plane.w_row, dvec4(centre, 1));
     const dvec2 q = on_plane(plane, centre);
-    const dvec2 along(glm::dot(dvec3(plane.x_row - q.x * plane.w_row), view.forward),
-                      glm::dot(dvec3(plane.y_row - q.y * plane.w_row), view.forward));
-    if (std::sin(plane.angle) < 1e-3 || glm::length(along) <= 0) {
-        return std::nullopt;
+    const dvec2 along(glm::dot(dvec3(plane.x_row - q.x * plane.w_row), along_ws),
+                      glm::dot(dvec3(plane.y_row - q.y * plane.w_row), along_ws));
+    if (glm::length(along) <= 0) {
+        return false;
     }
     align(plane, along);
+    return true;
+}
 
-    // What the map holds, and what the warp is chosen for.
+/// What the map holds, and what the warp is chosen for. False where there is nothing to warp along.
+bool measure(Plane2& plane, const FrameInput& input, const ConvexBody& body, const Recipe& recipe, double pseudo_near) {
+    const View view = view_of_camera(input);
     plane.spots = spots_of(plane, body, view);
     double end = 0;
     for (const Spot& spot : plane.spots) {
@@ -142,10 +137,42 @@ std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, 
 
     // Room for kernels; a world radius reaches beyond a light's cone only where nothing receives.
     const Guard guard = guard_of(input, recipe);
-    plane.reach = positional ? 0 : static_cast<double>(guard.metres);
+    plane.reach = plane.fitted.eye_ws.w > 0.5F ? 0 : static_cast<double>(guard.metres);
     plane.share = std::min(0.4, static_cast<double>(guard.texels) / recipe.resolution);
-    const bool flat = plane.far_spots.size() < 3 || plane.far < 1.001 * plane.near || plane.length <= 0;
-    return flat ? std::nullopt : std::optional(plane);
+    return plane.far_spots.size() >= 3 && plane.far >= 1.001 * plane.near && plane.length > 0;
+}
+
+}  // namespace
+
+std::optional<Plane2> plane_of(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                               const Recipe& recipe, double pseudo_near) {
+    // The warp answers pixels that grow with the distance; an orthographic camera's do not, and n is infinite.
+    if (is_orthographic(input.samples.camera)) {
+        return std::nullopt;
+    }
+    const View view = view_of_camera(input);
+    Plane2 plane = unturned(fitted);
+    const bool positional = fitted.eye_ws.w > 0.5F;
+    const dvec3 centre = middle_of(body);
+    const dvec3 axis(vec3(input.light().shape.direction_ws));
+    set_angles(plane, view, positional ? glm::normalize(centre - dvec3(vec3(fitted.eye_ws))) : axis);
+    if (std::sin(plane.angle) < 1e-3 || !turn_along(plane, centre, view.forward)) {
+        return std::nullopt;
+    }
+    return measure(plane, input, body, recipe, pseudo_near) ? std::optional(plane) : std::nullopt;
+}
+
+std::optional<Plane2> plane_along(const FrameInput& input, const ConvexBody& body, const GnLightView& fitted,
+                                  const Recipe& recipe, double pseudo_near, dvec3 along_ws) {
+    if (is_orthographic(input.samples.camera)) {
+        return std::nullopt;
+    }
+    Plane2 plane = unturned(fitted);
+    plane.angle = std::numbers::pi / 2;
+    if (!turn_along(plane, middle_of(body), along_ws)) {
+        return std::nullopt;
+    }
+    return measure(plane, input, body, recipe, pseudo_near) ? std::optional(plane) : std::nullopt;
 }
 
 LightViews place(const FrameInput& input, const Recipe& recipe, double pseudo_near, Choose choose) {

@@ -26,6 +26,7 @@ GN_FN vec3 gn_way_ws(GnReceiver receiver, GnLightView view, vec2 d_ts) {
     if (abs(determinant) <= 1.0e-4f * length(du_ws) * length(dv_ws)) {
         return vec3(0.0f);
     }
+    d_ts.y = gn_log_step(d_ts.y, gn_log_rate(view) / view.rect_ts.w);
     vec3 way_ws = (cross(dv_ws, receiver.n_ws) * d_ts.x + cross(receiver.n_ws, du_ws) * d_ts.y) / determinant;
     float fall = dot(gn_row(view.cs_from_ws, 3), way_ws) / gn_clip(view, receiver.p_ws).w;
     return fall < 1.0f - gn_least_divisor && !gn_bent(view) ? way_ws / (1.0f - fall) : vec3(0.0f);

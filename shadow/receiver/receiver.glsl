@@ -13,6 +13,7 @@
 #include "base/shared.h"
 #include "shadow/receiver/bias.h"
 #include "shadow/light_view.h"
+#include "shadow/receiver/logarithm.glsl"
 #include "shadow/receiver/paraboloid.glsl"
 #include "shadow/scene/light.h"
 
@@ -21,14 +22,15 @@ namespace gn::glsl {
 #endif
 
 // What a host may fix when it compiles: whether there is a cone, whether taps follow the receiver's plane, and the kind of
-// all views of the placement, 0 affine, 1 perspective or affine, 2 paraboloids. Left open, all of it is decided tap by tap.
+// all views of the placement, 0 affine, 1 perspective or affine, 2 paraboloids, 3 logarithmic or perspective. Left open, all of it
+// is decided tap by tap.
 //   #define GN_BIAS_CONE 0
 //   #define GN_BIAS_PLANE true
 //   #define GN_VIEW_KIND 0
 #if defined(__cplusplus)
 #define GN_BIAS_CONE 1
 #define GN_BIAS_PLANE (bias.receiver_plane != 0)
-#define GN_VIEW_KIND 3
+#define GN_VIEW_KIND 4
 #endif
 #ifndef GN_BIAS_CONE
 #define GN_BIAS_CONE 1
@@ -37,7 +39,7 @@ namespace gn::glsl {
 #define GN_BIAS_PLANE (bias.receiver_plane != 0)
 #endif
 #ifndef GN_VIEW_KIND
-#define GN_VIEW_KIND 3
+#define GN_VIEW_KIND 4
 #endif
 
 // A view sample as every stage sees it.
@@ -61,6 +63,7 @@ struct GnProjected {
     vec2 plane_slope;       // depth of the receiver's plane at uv + d: depth + dot(slope, d) / (1 - dot(fall, d))
     vec2 plane_fall;
     vec2 plane_curve;       // of a paraboloid: slope and fall each gain dot(d, d) times this; else 0
+    float rows;             // of a logarithmic view: its rate over v, by which d.y counts as gn_log_step says; else 0
     vec3 du_ws;             // gradient of uv_ts over the world, per metre
     vec3 dv_ws;
     float texel_ts;         // 1 / resolution
@@ -101,7 +104,26 @@ const float gn_least_divisor = 1.0e-3f;
 
 // Whether the view is a paraboloid: straight lines are bent on its map.
 GN_FN bool gn_bent(GnLightView view) {
-    return GN_VIEW_KIND == 2 || (GN_VIEW_KIND == 3 && view.paraboloid > 0.0f);
+    return GN_VIEW_KIND == 2 || (GN_VIEW_KIND == 4 && view.paraboloid > 0.0f);
+}
+
+// The rate of a logarithmic view's rows; 0 of every other.
+GN_FN float gn_log_rate(GnLightView view) { return GN_VIEW_KIND >= 3 ? max(-view.paraboloid, 0.0f) : 0.0f; }
+
+// Where a point of clip space lies on a view's map, from -1 to 1; and where it lies on the layer.
+GN_FN vec2 gn_place(GnLightView view, vec4 p_cs) {
+    if (gn_bent(view)) {
+        return gn_paraboloid(vec3(p_cs)) / view.paraboloid;
+    }
+    return gn_log_place(vec3(p_cs.x, p_cs.y, GN_VIEW_KIND == 0 ? 1.0f : p_cs.w), gn_log_rate(view));
+}
+GN_FN vec2 gn_layer_place(GnLightView view, vec2 place) {
+    return vec2(view.rect_ts.x, view.rect_ts.y) + (place * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
+}
+// What x / w and y / w are where a ray falls on the layer; of a paraboloid the coordinates on its disc over its extent.
+GN_FN vec2 gn_ndc_at(GnLightView view, vec2 uv_ts) {
+    vec2 place = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / vec2(view.rect_ts.z, view.rect_ts.w) * 2.0f - 1.0f;
+    return gn_log_ndc(place, gn_log_rate(view));
 }
 
 // Unit direction from p_ws to the view's eye.
@@ -135,6 +157,10 @@ GN_FN void gn_uv_gradients(GnLightView view, vec3 p_ws, GN_OUT(vec3) du_ws, GN_O
     dv_ws = (gn_row(view.cs_from_ws, 1) - p_cs.y * inverse_w * row_w) * (inverse_w * scale_ts.y);
     if (gn_bent(view)) {
         gn_paraboloid_gradients(view, vec3(p_cs), scale_ts, du_ws, dv_ws);
+    }
+    float rate = gn_log_rate(view);
+    if (rate > 0.0f) {
+        dv_ws = (row_w * inverse_w - gn_row(view.cs_from_ws, 1) / p_cs.y) * (view.rect_ts.w / rate);
     }
 }
 
@@ -231,6 +257,8 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     result.metres_per_depth = view.metres_per_depth;
     result.bounds_ts = vec4(view.rect_ts.x, view.rect_ts.y, view.rect_ts.x + view.rect_ts.z, view.rect_ts.y + view.rect_ts.w);
     vec4 p_cs = gn_clip(view, p_ws);
+    float rate = gn_log_rate(view);
+    result.rows = rate / view.rect_ts.w;
     if (gn_bent(view)) {
         result.bias = length(vec3(gn_clip(view, receiver.p_ws))) / view.metres_per_depth;
         return gn_open_cone(gn_project_paraboloid(result, view, vec3(p_cs), receiver.n_ws), bias.cone, unit, bias);
@@ -239,15 +267,19 @@ GN_FN GnProjected gn_project(GnReceiver receiver, GnLightView view, GnBias bias)
     float w = GN_VIEW_KIND == 0 ? 1.0f : p_cs.w;
     float inverse_w = 1.0f / w;
     vec2 p_ndc = vec2(p_cs.x, p_cs.y) * inverse_w;
-    result.uv_ts = vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
+    vec2 place = rate > 0.0f ? gn_place(view, p_cs) : p_ndc;
+    result.uv_ts = gn_layer_place(view, place);
     result.depth = dot(view.depth_from_ws, vec4(p_ws, 1.0f)) - gn_depth_epsilon;
     result.bias = -dot(vec3(view.depth_from_ws), p_ws - receiver.p_ws);
-    result.inside = w > 0.0f && abs(p_ndc.x) <= 1.0f && abs(p_ndc.y) <= 1.0f;
+    result.inside = w > 0.0f && abs(place.x) <= 1.0f && abs(place.y) <= 1.0f;
 
     // The receiver's plane: displacements e_u, e_v within it that move uv by one, to first order; the division in
     // gn_plane_depth makes them exact. Solve [gx gy n]^T d = (du, dv, 0) (w + row_w d) for d.
     vec3 gx = (gn_row(view.cs_from_ws, 0) - p_ndc.x * row_w) * scale_ts.x;
     vec3 gy = (gn_row(view.cs_from_ws, 1) - p_ndc.y * row_w) * scale_ts.y;
+    if (rate > 0.0f) {
+        gy = (row_w - gn_row(view.cs_from_ws, 1) / p_ndc.y) / result.rows;
+    }
     float determinant = dot(gx, cross(gy, receiver.n_ws));
     if (abs(determinant) > 1.0e-4f * length(gx) * length(gy)) {
         vec3 e_u = cross(gy, receiver.n_ws) / determinant;
@@ -277,11 +309,14 @@ GN_FN float gn_depth_at(GnProjected projected, vec2 uv_ts, GnBias bias) {
     if (!GN_BIAS_PLANE) {
         return depth;
     }
+    if (GN_VIEW_KIND >= 3) {
+        d_ts.y = gn_log_step(d_ts.y, projected.rows);
+    }
     float slope = dot(projected.plane_slope, d_ts);
     if (GN_VIEW_KIND == 0) {
         return depth + slope;
     }
-    vec2 curve = GN_VIEW_KIND == 1 ? vec2(0.0f) : projected.plane_curve * dot(d_ts, d_ts);
+    vec2 curve = GN_VIEW_KIND == 1 || GN_VIEW_KIND == 3 ? vec2(0.0f) : projected.plane_curve * dot(d_ts, d_ts);
     float divisor = max(1.0f - dot(projected.plane_fall, d_ts) - curve.y, gn_least_divisor);
     return depth + (slope + curve.x) / divisor;
 }
@@ -293,6 +328,10 @@ GN_FN bvec4 gn_lit_beside(GnProjected projected, vec4 du_ts, vec4 dv_ts, vec4 oc
         vec4 cone = GN_BIAS_CONE == 0 ? vec4(0.0f) : projected.cone * sqrt(du_ts * du_ts + dv_ts * dv_ts);
         return greaterThanEqual(room + cone, vec4(0.0f));
     }
+    if (GN_VIEW_KIND >= 3) {
+        dv_ts = vec4(gn_log_step(dv_ts.x, projected.rows), gn_log_step(dv_ts.y, projected.rows),
+                     gn_log_step(dv_ts.z, projected.rows), gn_log_step(dv_ts.w, projected.rows));
+    }
     vec4 offset = projected.plane_slope.x * du_ts + projected.plane_slope.y * dv_ts;
     if (GN_BIAS_CONE == 1) {
         room = room + projected.cone_share * max(offset, vec4(0.0f));
@@ -301,7 +340,7 @@ GN_FN bvec4 gn_lit_beside(GnProjected projected, vec4 du_ts, vec4 dv_ts, vec4 oc
         return lessThanEqual(offset, room);
     }
     vec4 divisor = 1.0f - (projected.plane_fall.x * du_ts + projected.plane_fall.y * dv_ts);
-    if (GN_VIEW_KIND != 1 && (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f)) {
+    if (GN_VIEW_KIND != 1 && GN_VIEW_KIND != 3 && (projected.plane_curve.x != 0.0f || projected.plane_curve.y != 0.0f)) {
         vec4 square = du_ts * du_ts + dv_ts * dv_ts;
         divisor = divisor - projected.plane_curve.y * square;
         offset = offset + projected.plane_curve.x * square;

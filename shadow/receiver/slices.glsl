@@ -27,7 +27,7 @@ GN_FN float gn_slices_metres(GnLight light, GnLightView view, vec2 uv_ts, float 
     if (!gn_slices_turn(light, view)) {
         return (depth - eye) * view.metres_per_depth;
     }
-    vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / vec2(view.rect_ts.z, view.rect_ts.w) * 2.0f - 1.0f;
+    vec2 p_ndc = gn_ndc_at(view, uv_ts);
     vec4 seen_ws = view.ws_from_cs * vec4(p_ndc.x, p_ndc.y, 0.5f, 1.0f);
     vec3 ray_ws = vec3(seen_ws) / seen_ws.w - vec3(view.eye_ws);
     return dot(vec3(light.direction_ws), ray_ws) * (depth - eye) / dot(vec3(view.depth_from_ws), ray_ws);

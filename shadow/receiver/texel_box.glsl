@@ -22,9 +22,7 @@ const float gn_widest_box = 8.0f;
 
 // Where a point is seen, in ts: a receiver before any bias moves it.
 GN_FN vec2 gn_seen_at(GnLightView view, vec3 p_ws) {
-    vec4 p_cs = gn_clip(view, p_ws);
-    vec2 p_ndc = gn_bent(view) ? gn_paraboloid(vec3(p_cs)) / view.paraboloid : vec2(p_cs.x, p_cs.y) / p_cs.w;
-    return vec2(view.rect_ts.x, view.rect_ts.y) + (p_ndc * 0.5f + 0.5f) * vec2(view.rect_ts.z, view.rect_ts.w);
+    return gn_layer_place(view, gn_place(view, gn_clip(view, p_ws)));
 }
 
 // The box of this half extent around a place in ts, at least half a texel and at most four, without what lies beyond the view.

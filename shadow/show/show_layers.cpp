@@ -41,7 +41,7 @@ constexpr const char* light_includes = R"(
 #include "shadow/receiver/receiver.glsl"
 layout(location = 0) out vec4 out_light;
 vec3 point_at(GnLightView view, vec2 xy, float depth) {
-    vec2 p_ndc = ((xy / view.resolution - view.rect_ts.xy) / view.rect_ts.zw) * 2.0 - 1.0;
+    vec2 p_ndc = gn_ndc_at(view, xy / view.resolution);
     if (gn_bent(view)) {
         return gn_paraboloid_ray(p_ndc * view.paraboloid) * (depth * view.metres_per_depth);
     }

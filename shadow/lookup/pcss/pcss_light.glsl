@@ -88,8 +88,7 @@ GN_FN float gn_pcss_distance(GnPcssMetres metres, GnLightView view, vec2 uv_ts, 
     if (metres.parallel) {
         return depth * view.metres_per_depth;
     }
-    vec2 p_ndc = (uv_ts - vec2(view.rect_ts.x, view.rect_ts.y)) / vec2(view.rect_ts.z, view.rect_ts.w) * 2.0f - 1.0f;
-    vec3 p = vec3(p_ndc.x, p_ndc.y, 1.0f);
+    vec3 p = vec3(gn_ndc_at(view, uv_ts), 1.0f);
     return dot(metres.along, p) * (depth - metres.eye) / dot(metres.deep, p);
 }
 
@@ -119,6 +118,7 @@ struct GnPcssKernel {
     vec2 right_ts;
     vec2 up_ts;
     vec2 fall;
+    float rows;  // of a logarithmic view, as the projection's; else 0
 };
 
 GN_FN GnPcssKernel gn_pcss_kernel(GnLookup at, GnPcssLight half_light, float spread) {
@@ -128,6 +128,7 @@ GN_FN GnPcssKernel gn_pcss_kernel(GnLookup at, GnPcssLight half_light, float spr
     kernel.right_ts = vec2(dot(at.projected.du_ws, right_ws), dot(at.projected.dv_ws, right_ws));
     kernel.up_ts = vec2(dot(at.projected.du_ws, up_ws), dot(at.projected.dv_ws, up_ws));
     kernel.fall = vec2(0.0f);
+    kernel.rows = at.projected.rows;
     if (GN_VIEW_KIND != 0 && !gn_bent(at.view)) {
         vec3 row_w = gn_row(at.view.cs_from_ws, 3);
         kernel.fall = vec2(dot(row_w, right_ws), dot(row_w, up_ws)) / gn_clip(at.view, at.receiver.p_ws).w;
@@ -138,7 +139,10 @@ GN_FN GnPcssKernel gn_pcss_kernel(GnLookup at, GnPcssLight half_light, float spr
 // The way of point q.
 GN_FN vec2 gn_pcss_way(GnPcssKernel kernel, vec2 q) {
     vec2 way_ts = q.x * kernel.right_ts + q.y * kernel.up_ts;
-    return GN_VIEW_KIND == 0 ? way_ts : way_ts / max(1.0f + dot(kernel.fall, q), 0.1f);
+    if (GN_VIEW_KIND != 0) {
+        way_ts /= max(1.0f + dot(kernel.fall, q), 0.1f);
+    }
+    return GN_VIEW_KIND >= 3 ? vec2(way_ts.x, gn_log_unstep(way_ts.y, kernel.rows)) : way_ts;
 }
 
 GN_FN vec2 gn_pcss_shift(GnLookup at, GnPcssLight half_light, vec2 q, float spread) {

@@ -82,6 +82,7 @@ void main() {
     p.depth = 0.5;
     p.bounds_ts = vec4(0.0, 0.0, 0.5, 0.5);
     p.plane_slope = p.plane_fall = p.plane_curve = vec2(0.0);
+    p.rows = 0.0;
     p.cone = p.cone_share = 0.0;
     GnBias bias;
     bias.receiver_plane = 0;

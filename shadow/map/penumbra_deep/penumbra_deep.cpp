@@ -114,7 +114,7 @@ TextureHandle add_fit(const FrameInput& input, const LightViews& views, const Te
 
 ShadowMap add_functions(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     const auto params = recipe.of<GnPenumbraDeepParams>("penumbra-deep");
-    if (views.tiles || views.kind == ViewKind::paraboloid) {
+    if (views.tiles || views.part->bends) {
         refuse(
             "map 'penumbra-deep' follows straight rays through views that are known when it is declared, and "
             "placement '{}' has none such; fit, single, cube and cascades have",

@@ -133,32 +133,6 @@ GnLightView plain_view(const ConvexBody& body, const LightFrame& frame, int reso
     return view;
 }
 
-std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view) {
-    // Before the near plane everything casts; behind the far plane nothing. The rectangle is extended a little: rounding
-    // moves vertices by less than a texel.
-    const double border = 1 + 4.0 / static_cast<double>(view.resolution);
-    const dvec4 w = border * row_of(view.cs_from_ws, 3);
-    std::vector<dvec4> inside{dvec4(0, 0, 0, 1 + 1e-3) - dvec4(view.depth_from_ws)};
-    for (int axis = 0; axis < 2; ++axis) {
-        inside.push_back(w - row_of(view.cs_from_ws, axis));
-        inside.push_back(w + row_of(view.cs_from_ws, axis));
-    }
-
-    // A box casts unless it lies wholly outside one of the planes.
-    std::vector<std::uint32_t> casters;
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const Box& box_ws = scene.objects[i].bounds_ws;
-        const dvec4 centre(dvec3(box_ws.centre()), 1);
-        const dvec3 half(0.5F * box_ws.extent());
-        if (std::all_of(inside.begin(), inside.end(), [&](const dvec4& plane) {
-                return glm::dot(plane, centre) + glm::dot(glm::abs(dvec3(plane)), half) >= 0;
-            })) {
-            casters.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    return casters;
-}
-
 GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const LightFrame& frame,
                            std::span<const GnLightView> views, Guard guard) {
     GnCascadesData data{.count = params.count,

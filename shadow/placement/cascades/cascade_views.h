@@ -86,9 +86,6 @@ GnLightView view_of(const Grid& grid, ivec2 first);
 /// The view centred on a point to the last bit, on no grid: what snapping is measured against.
 GnLightView loose_view(const Grid& grid, dvec3 centre_ws);
 
-/// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
-std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view);
-
 /// What the choice function is given.
 GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const LightFrame& frame,
                            std::span<const GnLightView> views, Guard guard);

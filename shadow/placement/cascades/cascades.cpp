@@ -135,7 +135,7 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
 
     // Cull the casters of each view; tell the choice function.
     for (const GnLightView& view : views.views) {
-        views.casters.push_back(casters_of(input.scene, view));
+        views.casters.push_back(casters_of(input.scene, view, params.least_caster));
     }
     views.set_data(choice_data(params, range, facing(input.samples.camera, input.light().shape), views.views,
                                guard_of(input, recipe)));
@@ -155,6 +155,11 @@ std::string refuses_cascades(const Scene&, const Light&, const Recipe& recipe) {
     if (kept && (by_samples(params) || params.fit != GN_FIT_STABLE)) {
         return "cascades.scroll and cascades.rate keep maps over frames, which only stable windows allow; use "
                "cascades.fit=stable with a split other than sdsm-minmax and sdsm-histogram";
+    }
+    if (params.least_caster > 0 && by_samples(params)) {
+        return "cascades.least_caster measures casters by the texels of a map, which splits by samples make on the "
+               "device; use "
+               "another cascades.split than sdsm-minmax and sdsm-histogram";
     }
     if (params.fit == GN_FIT_WARPED && !by_samples(params) && params.select == GN_SELECT_PROJECTION) {
         return "cascades.select=projection asks which rectangle holds a receiver, and warped maps are none; use "
@@ -221,6 +226,10 @@ ParamTable rows() {
         GN_PARAM(GnCascadesParams, scroll, boolean, 0, 1, "",
                  "Keeps the maps of still casters and draws only what the moving window reveals; takes effect over a "
                  "sequence of frames."),
+        GN_PARAM(GnCascadesParams, least_caster, real, 0, 64, "texels",
+                 "Leaves an object out of every map on which its bounds span fewer texels than this, to the longer "
+                 "side: far "
+                 "maps draw less, and shadows that thin are missing there."),
     };
     all.insert(all.end(), more.begin(), more.end());
     return param_table<GnCascadesParams>(std::move(all));

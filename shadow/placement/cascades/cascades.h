@@ -57,8 +57,9 @@ struct GnCascadesParams {
     float width GN_DEFAULT(0.1f);  ///< of the transition, as a share of the nearer cascade
     int select GN_DEFAULT(GN_SELECT_DISTANCE);
     int passes GN_DEFAULT(GN_PASSES_AUTO);
-    int rate GN_DEFAULT(1);    ///< frames between redraws of the last cascade
-    int scroll GN_DEFAULT(0);  ///< keep maps over frames and draw only what the window newly shows
+    int rate GN_DEFAULT(1);               ///< frames between redraws of the last cascade
+    int scroll GN_DEFAULT(0);             ///< keep maps over frames and draw only what the window newly shows
+    float least_caster GN_DEFAULT(0.0f);  ///< texels: what spans fewer of a map is not drawn into it
 };
 
 #endif

@@ -139,6 +139,27 @@ TEST(CascadeCulling, KeepsWhatCanCastAndDropsWhatCannot) {
     EXPECT_EQ(casters_of(scene, view), (std::vector<std::uint32_t>{0, 1, 4}));
 }
 
+/// R 7.4.1: an object that spans fewer texels than asked for is left out of that map, and of no finer one.
+TEST(CascadeCulling, SmallCastersAreLeftOutOfTheMapsThatAreTooCoarseForThem) {
+    Scene scene;
+    const auto box = [&](vec3 low, vec3 high) { scene.objects.push_back({"box", 0, 0, 0, Box{low, high}}); };
+    box(vec3(0, 0, 0), vec3(0.1F, 0.1F, 0.1F));
+    box(vec3(1, 0, 0), vec3(1.1F, 3, 0.1F));    // tall, but the light comes from above
+    box(vec3(-3, 0, 0), vec3(-1, 0.1F, 0.1F));  // long
+    box(vec3(-50, -0.1F, -50), vec3(50, 0, 50));
+    const GnLight light = sun(vec3(0, -1, 0));
+    const auto left = [&](float half, float least) {
+        return casters_of(
+            scene, fit_orthographic(body_of(Box{vec3(-half, 0, -half), vec3(half, 3, half)}), light, 256, {}), least);
+    };
+    // A texel of the near map measures 10 / 256 m, of the far one 80 / 256 m.
+    EXPECT_EQ(left(5, 2).size(), 4U);
+    EXPECT_EQ(left(5, 3), (std::vector<std::uint32_t>{2, 3}));
+    EXPECT_EQ(left(40, 2), (std::vector<std::uint32_t>{2, 3}));
+    EXPECT_EQ(left(40, 7), (std::vector<std::uint32_t>{3}));
+    EXPECT_EQ(left(40, 0).size(), 4U);
+}
+
 TEST(CascadeData, PackedPositionsAreTheViewsOwn) {
     const GnLight light = sun(vec3(0.4F, -1, 0.3F));
     const Camera camera{.position_ws = vec3(1, 2, 3)};

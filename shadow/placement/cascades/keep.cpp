@@ -69,7 +69,8 @@ int floor_div(int a, int b) {
 }
 
 /// Cuts rectangles at the borders of the grid's tiles, each the size of a map; every piece is drawn by its tile's view.
-std::vector<KeptDraw> draws_of(const Scene& scene, const Grid& grid, int layer, std::span<const Texels> rectangles) {
+std::vector<KeptDraw> draws_of(const Scene& scene, const Grid& grid, int layer, std::span<const Texels> rectangles,
+                               float least_caster) {
     const int n = grid.resolution;
     std::vector<KeptDraw> draws;
     for (const Texels& texels : rectangles) {
@@ -79,7 +80,7 @@ std::vector<KeptDraw> draws_of(const Scene& scene, const Grid& grid, int layer, 
                 const Texels piece = both(texels, {corner, corner + n});
                 KeptDraw draw{view_of(grid, corner), ivec4(piece.low - corner, piece.high - piece.low), {}};
                 draw.view.layer = layer;
-                draw.casters = casters_of(scene, draw.view);
+                draw.casters = casters_of(scene, draw.view, least_caster);
                 draws.push_back(std::move(draw));
             }
         }
@@ -136,8 +137,8 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
                   std::span<const Window> windows, LightViews& views) {
     KeptViews kept;
     kept.history = input.history;
-    kept.name = fmt::format("light {} {} {} {}", input.light_id, recipe.name,
-                            recipe.map != nullptr ? recipe.map->id : "", name_of(recipe.casters));
+    kept.name = fmt::format("light {} {} {} {} {}", input.light_id, recipe.name,
+                            recipe.map != nullptr ? recipe.map->id : "", name_of(recipe.casters), params.least_caster);
     const std::string name = "cascades of " + kept.name;
     const auto* before = input.history->before<KeptState>(name);
     KeptState state = before != nullptr ? *before : KeptState{};
@@ -172,8 +173,8 @@ void keep_windows(const FrameInput& input, const Recipe& recipe, const GnCascade
         }
         add_touched(grid, touched_ws.value_or(std::vector<Box>{}), window, fresh);
         const int layer = static_cast<int>(i);
-        kept.layers.push_back({(first % n + n) % n, draws_of(input.scene, grid, layer, fresh),
-                               draws_of(input.scene, grid, layer, everything)});
+        kept.layers.push_back({(first % n + n) % n, draws_of(input.scene, grid, layer, fresh, params.least_caster),
+                               draws_of(input.scene, grid, layer, everything, params.least_caster)});
         views.views[i] = view_of(grid, first);
         views.views[i].layer = layer;
         last = {grid.view, first, true, stay ? last.frame : input.history->frame()};
