@@ -4,6 +4,7 @@
 
 #include "shadow/casters/raster.h"
 #include "shadow/casters/solids.h"
+#include "shadow/casters/tiles.h"
 
 namespace gn {
 
@@ -24,7 +25,7 @@ struct CasterJob {
     const Light* light = nullptr;  ///< whose shadow it is: not everything casts for every light
     const PreparedRecipe* prepared = nullptr;
     ShaderInputs inputs;               ///< all that the pass's shaders read
-    BufferHandle tile_draws;           ///< add_tile_draws, with tiles
+    TileLists tile_lists;              ///< with tiles
     std::vector<TextureHandle> masks;  ///< base colour textures of alpha-tested materials
     std::uint64_t shader_key = 0;      ///< what the pass adds to the casters' shaders
     bool translucent = false;          ///< the translucent casters alone, whole, instead of the others
@@ -56,6 +57,8 @@ struct CasterDraw {
     void ranges(Recorder& r, const CasterFaces& faces, std::span<const DrawRange> ranges) const;
     void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void masked(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    /// With tiles: which draw of the lists an object's is in this layer.
+    [[nodiscard]] int tile_draw(std::uint32_t object) const;
     void draw_object(Recorder& r, std::uint32_t index) const;
     void drawn(Recorder& r) const;
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 in_position_ws;
-layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; int draw; } push;
 #if defined(GN_FRAGMENT) && !defined(GN_CURVED)
 layout(location = 0) out float out_depth;
 #endif
@@ -26,8 +26,8 @@ void main() {
     int view = gl_InstanceIndex;
     gl_Layer = views[view].layer;
 #elif defined(GN_TILES)
-    int view = gl_InstanceIndex;
     int layer = push.view;
+    int view = int(tile_lists[tile_lists[uint(push.draw)] + uint(gl_InstanceIndex)]);
     out_view = view;
 #else
     int view = push.view;
@@ -115,7 +115,7 @@ void main() {
 constexpr const char* fragment_head = R"(
 #include "shadow/receiver/logarithm.glsl"
 #include "shadow/receiver/paraboloid.glsl"
-layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; int draw; } push;
 #ifdef GN_PARABOLOID
 layout(location = 0) in vec2 in_u;
 layout(location = 1) flat in vec3 in_a;
@@ -192,8 +192,12 @@ void main() {
 
 }  // namespace
 
-ShaderInputs caster_inputs(const LightViews& views, const SceneHandles& handles, bool masked) {
+ShaderInputs caster_inputs(const LightViews& views, const SceneHandles& handles, bool masked, bool tiles,
+                           BufferHandle tile_lists) {
     ShaderInputs inputs = view_list(views);
+    if (tiles) {
+        inputs.buffer("readonly buffer", "TileLists", "uint tile_lists[];", tile_lists);
+    }
     if (masked) {
         inputs.buffer("readonly buffer", "Uvs", "vec2 uvs[];", handles.uvs)
             .buffer("readonly buffer", "Colors", "vec4 colors[];", handles.colors)
@@ -208,7 +212,7 @@ RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant)
     const bool curved = paraboloid || variant.kind == ViewKind::logarithmic;
     const bool needs_fragment = variant.masked || write_depth || !pass.fragment.body.empty();
     // What a map's fragments read comes after what all stages do.
-    const ShaderInputs shared = caster_inputs({}, {}, variant.masked);
+    const ShaderInputs shared = caster_inputs({}, {}, variant.masked, variant.tiles, {});
     ShaderInputs all = shared;
     all.add(pass.fragment.inputs);
     const std::string types = "#include \"shadow/casters/tiles.glsl\"\n";

@@ -87,7 +87,7 @@ void CasterDraw::ranges(Recorder& r, const CasterFaces& faces, std::span<const D
         return;
     }
     begin(r, faces, false);
-    r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, -1});
+    r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, -1, 0});
     r.draw_indexed(draws);
 }
 
@@ -100,7 +100,7 @@ void CasterDraw::opaque_one_by_one(Recorder& r, const CasterFaces& faces,
     for (const std::uint32_t index : objects) {
         const Object& object = job->scene->objects[index];
         if (job->translucent || !is_masked(*job->scene, object)) {
-            r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index)});
+            r.push_value(CasterPush{static_cast<int>(view), 1.0F, 0.0F, static_cast<int>(index), tile_draw(index)});
             draw_object(r, index);
         }
     }
@@ -118,14 +118,20 @@ void CasterDraw::masked(Recorder& r, const CasterFaces& faces, std::span<const s
         const BaseColor color = base_color(*job->scene, job->handles, material);
         const AlphaTest test = alpha_test(material);
         r.set("base_color_texture", color.texture, color.sampler);
-        r.push_value(CasterPush{static_cast<int>(view), test.base_alpha, test.cutoff, static_cast<int>(index)});
+        r.push_value(CasterPush{static_cast<int>(view), test.base_alpha, test.cutoff, static_cast<int>(index),
+                                tile_draw(index)});
         draw_object(r, index);
     }
 }
 
+int CasterDraw::tile_draw(std::uint32_t object) const {
+    return job->views.tiles ? static_cast<int>(view * job->scene->objects.size() + object) : 0;
+}
+
 void CasterDraw::draw_object(Recorder& r, std::uint32_t index) const {
     if (job->views.tiles) {
-        r.draw_indexed_indirect(job->tile_draws, index * sizeof(VkDrawIndexedIndirectCommand));
+        r.draw_indexed_indirect(job->tile_lists.draws,
+                                static_cast<VkDeviceSize>(tile_draw(index)) * sizeof(VkDrawIndexedIndirectCommand));
         return;
     }
     const Object& object = job->scene->objects[index];
@@ -215,7 +221,7 @@ void CasterDraw::declare(PassBuilder& builder) const {
     }
     job->inputs.declare(builder);
     if (job->views.tiles) {
-        builder.indirect(job->tile_draws);
+        builder.indirect(job->tile_lists.draws);
     }
 }
 
@@ -238,13 +244,13 @@ std::vector<int> masks_of(const Scene& scene) {
 
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass) {
-    const BufferHandle tile_draws = views.tiles ? add_tile_draws(input, views) : BufferHandle{};
+    const TileLists tile_lists = views.tiles ? add_tile_lists(input, views) : TileLists{};
     const std::vector<int> masks = masks_of(input.scene);
-    ShaderInputs inputs = caster_inputs(views, input.handles, !masks.empty());
+    ShaderInputs inputs = caster_inputs(views, input.handles, !masks.empty(), views.tiles, tile_lists.views);
     inputs.add(pass.fragment.inputs);
     auto job =
         std::make_shared<CasterJob>(CasterJob{pass, recipe.casters, std::move(views), input.handles, &input.scene,
-                                              &input.light(), input.prepared, std::move(inputs), tile_draws});
+                                              &input.light(), input.prepared, std::move(inputs), tile_lists});
     for (const int mask : masks) {
         job->masks.push_back(mask < 0 ? input.handles.white : input.handles.textures[static_cast<std::size_t>(mask)]);
     }

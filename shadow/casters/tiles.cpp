@@ -4,6 +4,8 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
+#include <algorithm>
+
 namespace gn {
 namespace {
 
@@ -52,6 +54,89 @@ BufferHandle add_tile_draws(const FrameInput& input, const LightViews& views) {
 )",
                  count);
     return draws;
+}
+
+namespace {
+
+/// An invocation an object: its views layer by layer, one after the other.
+constexpr const char* lists_text = R"(
+layout(local_size_x = 64) in;
+void main() {
+    uint object = gl_GlobalInvocationID.x;
+    if (object >= u.objects) {
+        return;
+    }
+    GnTileCaster caster = casters[object];
+    uint end = u.layers * u.objects + object * u.most;
+    uint all = GN_TILE_COUNT;
+    for (uint layer = 0u; layer < u.layers; ++layer) {
+        uint draw = layer * u.objects + object;
+        uint start = end;
+        for (uint i = 0u; i < all; ++i) {
+            if (gn_tile_in(views[i], int(layer)) && gn_tile_reached(views[i], caster.centre_ws, caster.half_ws)) {
+                listed[end] = i;
+                end += 1u;
+            }
+        }
+        listed[draw] = start;
+        draws[5u * draw] = caster.indices;
+        draws[5u * draw + 1u] = end - start;
+        draws[5u * draw + 2u] = caster.first_index;
+        draws[5u * draw + 3u] = 0u;
+        draws[5u * draw + 4u] = 0u;
+    }
+}
+)";
+
+/// Scalar layout.
+struct TileCaster {
+    vec3 centre_ws, half_ws;
+    std::uint32_t first_index, indices;
+};
+constexpr const char* caster_text =
+    "struct GnTileCaster { vec3 centre_ws; vec3 half_ws; uint first_index; uint indices; };\n";
+
+std::vector<TileCaster> casters_of(const Scene& scene) {
+    std::vector<TileCaster> casters;
+    for (const Object& object : scene.objects) {
+        casters.push_back({object.bounds_ws.centre(), 0.5F * object.bounds_ws.extent(), object.first_triangle * 3,
+                           object.triangle_count * 3});
+    }
+    casters.resize(std::max<std::size_t>(casters.size(), 1));
+    return casters;
+}
+
+}  // namespace
+
+TileLists add_tile_lists(const FrameInput& input, const LightViews& views) {
+    const std::vector<TileCaster> casters = casters_of(input.scene);
+    const auto objects = static_cast<std::uint32_t>(casters.size());
+    const auto most = static_cast<std::uint32_t>(views.views.size());
+    const VkDeviceSize draws = VkDeviceSize{objects} * views.layers;
+    const TileLists lists{
+        input.graph.create({.name = "tile draws", .bytes = draws * sizeof(VkDrawIndexedIndirectCommand)}),
+        input.graph.create({.name = "tile lists", .bytes = (draws + VkDeviceSize{objects} * most) * 4})};
+    ShaderInputs inputs = view_list(views);
+    inputs.block("readonly buffer", "Casters", "GnTileCaster casters[];", std::as_bytes(std::span(casters)))
+        .buffer("writeonly buffer", "Draws", "uint draws[];", lists.draws)
+        .buffer("writeonly buffer", "Listed", "uint listed[];", lists.views);
+    if (views.count.valid()) {
+        inputs.buffer("readonly buffer", "Count", "uint count;", views.count);
+    }
+    inputs.constant("uint", "objects", objects).constant("uint", "most", most).constant("uint", "layers", views.layers);
+    const auto shader = compute_once(input.prepared, "tile lists", hashed(inputs), [&] {
+        return include_line("shadow/casters/tiles.glsl") + caster_text + inputs.text() +
+               (views.count.valid() ? "#define GN_TILE_COUNT min(count, u.most)\n" : "#define GN_TILE_COUNT u.most\n") +
+               lists_text;
+    });
+    input.graph.add_pass(
+        "tile lists", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [inputs, objects, shader](Recorder& r) {
+            r.bind(*shader);
+            inputs.set(r);
+            r.dispatch((objects + 63) / 64, 1);
+        });
+    return lists;
 }
 
 BufferHandle add_tile_draw(const FrameInput& input, const LightViews& views, std::uint32_t vertices) {

@@ -10,6 +10,14 @@ namespace gn {
 
 /// VkDrawIndexedIndirectCommand[Scene::objects]: each object's triangles, once for every view.
 BufferHandle add_tile_draws(const FrameInput& input, const LightViews& views);
+
+/// Which views an object's box may cast into, and draws of these alone.
+struct TileLists {
+    BufferHandle
+        draws;  ///< VkDrawIndexedIndirectCommand[layers][Scene::objects]: once for every such view of the layer
+    BufferHandle views;  ///< uint[]: [layer * objects + object] is where this draw's views begin, instance by instance
+};
+TileLists add_tile_lists(const FrameInput& input, const LightViews& views);
 /// One VkDrawIndirectCommand: so many vertices, once for every view.
 BufferHandle add_tile_draw(const FrameInput& input, const LightViews& views, std::uint32_t vertices);
 

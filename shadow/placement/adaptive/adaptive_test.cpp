@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// Levels in closed form, tiles within their budget, and what they show against one map and against the truth.
+#include "shadow/placement/adaptive/adaptive.glsl"
+#include "shadow/placement/adaptive/tree.h"
+#include "shadow/show/show.h"
+#include "tests/near_edges.h"
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace gn {
+namespace {
+
+using test::device;
+
+/// A level's nodes follow each other row by row, levels follow each other, and so do maps: no number is left out.
+TEST(Adaptive, NodesAreNumberedOneAfterTheOther) {
+    constexpr int levels = 3;
+    int next = 0;
+    for (int map = 0; map < 2; ++map) {
+        for (int level = 0; level <= levels; ++level) {
+            for (int y = 0; y < 1 << level; ++y) {
+                for (int x = 0; x < 1 << level; ++x) {
+                    EXPECT_EQ(glsl::gn_adaptive_node(levels, map, level, ivec2(x, y)), next++);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(glsl::gn_adaptive_cell(vec2(0.3F, 0.74F), 2), ivec2(1, 2));
+    EXPECT_EQ(glsl::gn_adaptive_cell(vec2(-0.1F, 1.0F), 2), ivec2(0, 3)) << "beyond the map the nearest";
+}
+
+/// A receiver on a level floor that a camera over it sees from `distance`, with square pixels of `pixel` metres.
+glsl::GnReceiver on_floor(float pixel) {
+    glsl::GnReceiver receiver{};
+    receiver.p_ws = vec3(1, 0, -2);
+    receiver.n_ws = vec3(0, 1, 0);
+    receiver.ddx_ws = vec3(pixel, 0, 0);
+    receiver.ddy_ws = vec3(0, 0, pixel);
+    return receiver;
+}
+
+/// An overhead sun whose map is `side` metres wide: a pixel of p metres asks for side / p texels, and the level is the least
+/// whose tiles have as many together.
+TEST(Adaptive, AnOverheadFloorsLevelIsThatOfItsPixels) {
+    constexpr float side = 40;
+    const vec4 x(2 / side, 0, 0, 0), y(0, 0, 2 / side, 0), w(0, 0, 0, 1);
+    GnAdaptiveData data;
+    data.levels = 9;
+    data.texels = 124;
+    data.density = 1;
+    for (float pixel = 0.7F; pixel > 0.0005F; pixel *= 0.83F) {
+        const glsl::GnReceiver receiver = on_floor(pixel);
+        const glsl::GnAdaptivePlace place = glsl::gn_adaptive_place(x, y, w, receiver.p_ws);
+        EXPECT_FLOAT_EQ(place.uv.x, 0.5F + 1 / side);
+        EXPECT_FLOAT_EQ(place.uv.y, 0.5F - 2 / side);
+        const int expected = std::clamp(static_cast<int>(std::ceil(std::log2(side / pixel / data.texels))), 0, 9);
+        EXPECT_EQ(glsl::gn_adaptive_wanted(data, receiver, place), expected) << pixel;
+        // Half the density is one level less, down to the coarsest.
+        GnAdaptiveData half = data;
+        half.density = 0.5F;
+        EXPECT_EQ(glsl::gn_adaptive_wanted(half, receiver, place),
+                  std::clamp(static_cast<int>(std::ceil(std::log2(0.5F * side / pixel / data.texels))), 0, 9));
+    }
+}
+
+/// A kernel of so many metres has no more texels than the border holds, however near the camera is.
+TEST(Adaptive, AKernelsRadiusStaysWithinTheBorder) {
+    constexpr float side = 40, texels = 200, border = 32;
+    for (const float reach : {0.001F, 0.02F, 0.3F, 5.0F}) {
+        const int level = glsl::gn_adaptive_widest(9, reach / side, texels, border);
+        const float finest = reach / side * texels * std::exp2(static_cast<float>(level));
+        EXPECT_TRUE(level == 0 || finest <= border) << reach;
+        EXPECT_TRUE(level == 9 || 2 * finest > border) << reach;
+    }
+}
+
+/// A frame's tiles, as the GPU made them.
+struct Tiles {
+    std::vector<GnLightView> views;
+    std::uint32_t most = 0;
+    std::vector<std::uint32_t> pages;
+};
+Tiles tiles_of(const Scene& scene, const std::string& text, uint width = 160, uint height = 90) {
+    const test::ValidationGuard guard;
+    SceneGpu gpu = upload_scene(device(), scene);
+    FrameGraph graph(device());
+    const SceneHandles handles = import_scene(graph, gpu);
+    const ViewSamples samples = add_view_samples(graph, gpu, handles, scene.camera(""), width, height);
+    const FrameInput input{device(), graph, scene, handles, samples, scene.lights.data()};
+    const Recipe recipe = load_recipe(text);
+    const LightViews views = recipe.placement->place(input, recipe);
+    for (const BufferHandle buffer : {views.buffer, views.count, views.tables.front().buffer}) {
+        graph.keep(buffer);
+    }
+    graph.execute(false);
+    Tiles tiles;
+    tiles.most = static_cast<std::uint32_t>(views.views.size());
+    std::uint32_t count = 0;
+    std::memcpy(&count, graph.download(views.count).data(), 4);
+    EXPECT_LE(count, tiles.most);
+    tiles.views.resize(std::min(count, tiles.most));
+    std::memcpy(tiles.views.data(), graph.download(views.buffer).data(), tiles.views.size() * sizeof(GnLightView));
+    const std::vector<std::byte> pages = graph.download(views.tables.front().buffer);
+    tiles.pages.resize(pages.size() / 4);
+    std::memcpy(tiles.pages.data(), pages.data(), pages.size());
+    return tiles;
+}
+
+/// Whatever the budget, tiles fit it, lie in the atlas, and share no texel; every tile has one page.
+TEST(AdaptiveRendered, TilesNeverExceedTheBudget) {
+    const Scene& scene = test::built_in("courtyard");
+    std::size_t fewer = ~std::size_t{0};
+    for (const auto& [resolution, maps] : {std::pair{2048, 4}, {512, 2}, {128, 1}, {64, 1}}) {
+        const Tiles tiles = tiles_of(scene, fmt::format("rmsm,resolution={},adaptive.maps={}", resolution, maps));
+        EXPECT_GT(tiles.views.size(), 0U);
+        EXPECT_LE(tiles.views.size(), fewer);
+        fewer = tiles.views.size();
+        std::set<std::array<int, 3>> corners;
+        for (const GnLightView& view : tiles.views) {
+            const vec4 rect = view.rect_ts * view.resolution;
+            const auto side = static_cast<int>(std::round(rect.z));
+            EXPECT_FLOAT_EQ(rect.z, rect.w);
+            EXPECT_LE(static_cast<std::size_t>(side * side) * tiles.views.size(),
+                      static_cast<std::size_t>(maps) * static_cast<std::size_t>(resolution * resolution));
+            const ivec2 corner(glm::round(vec2(rect)));
+            EXPECT_EQ(corner % side, ivec2(0));
+            EXPECT_LE(std::max(corner.x, corner.y) + side, resolution);
+            EXPECT_LT(view.layer, maps);
+            EXPECT_TRUE(corners.insert({corner.x, corner.y, view.layer}).second) << "two tiles in one place";
+        }
+        std::set<std::uint32_t> paged;
+        for (const std::uint32_t page : tiles.pages) {
+            EXPECT_TRUE(page == 0 || paged.insert(page).second);
+        }
+        EXPECT_EQ(paged.size(), tiles.views.size());
+        EXPECT_EQ(*paged.rbegin(), tiles.views.size());
+    }
+}
+
+/// [EASW09] eq. 3.2: with tiles enough no texel covers more than a pixel, and none is half as large: a level finer would do.
+TEST(AdaptiveRendered, EverySampleHasATexelAPixel) {
+    const Scene& scene = test::built_in("contact");
+    SceneGpu gpu = upload_scene(device(), scene);
+    const std::vector<float> m = undersampling(device(), gpu, scene.camera(""),
+                                               load_recipe("rmsm,resolution=2048,adaptive.levels=10,adaptive.density=1"),
+                                               {.width = 192, .height = 108});
+    std::size_t counted = 0, coarse = 0, fine = 0;
+    for (const float value : m) {
+        counted += value >= 0 ? 1 : 0;
+        coarse += value > 1.001F ? 1 : 0;
+        fine += value >= 0 && value < 0.499F ? 1 : 0;
+    }
+    EXPECT_GT(counted, m.size() / 8);
+    EXPECT_EQ(coarse, 0U);
+    EXPECT_EQ(fine, 0U);
+}
+
+/// Many tiles show what one does: level 2's sixteen have together the texels of one that is four times as wide, place by place.
+TEST(AdaptiveRendered, TilesHaveNoSeams) {
+    const Scene& scene = test::built_in("courtyard");
+    SceneGpu gpu = upload_scene(device(), scene);
+    const auto visibility = [&](const std::string& text) {
+        const test::ValidationGuard guard;
+        const FrameResult frame =
+            render_frame(device(), gpu, scene.camera(""), load_recipe(text),
+                         {.width = 160, .height = 90, .repeat = 0, .only_light = 0, .picture = false});
+        EXPECT_EQ(frame.refused.front(), "");
+        return frame.visibility.front().values;
+    };
+    struct Case {
+        std::string recipe;
+        int border;
+    };
+    for (const auto& [recipe, border] :
+         {Case{"hard", 2},
+          {"hard,adaptive.mode=qvsm,adaptive.threshold=-1,adaptive.start=0,adaptive.rounds=2", 2},
+          {"pcf", 5},
+          {"pcf,pcf.kernel=vogel,pcf.radius=3", 6}}) {
+        const std::string all = recipe + ",placement=adaptive,adaptive.density=64,";
+        const auto many = visibility(fmt::format("{}resolution=512,adaptive.maps=1,adaptive.levels=2,adaptive.tile={}",
+                                                 all, 96 + 2 * border));
+        const auto one = visibility(fmt::format("{}resolution=512,adaptive.maps=1,adaptive.levels=0,adaptive.tile={}",
+                                                all, 4 * 96 + 2 * border));
+        ASSERT_EQ(many.size(), one.size());
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            differ += std::abs(many[i] - one[i]) > 1e-3F ? 1 : 0;
+        }
+        // Edges that pass a texel's centre within the rounding of the views' offsets fall to its other side.
+        EXPECT_LE(differ, one.size() / 500) << recipe;
+        EXPECT_GT(std::count(one.begin(), one.end(), 0.0F), 500);
+    }
+}
+
+/// What a grid's tile holds has one resolution throughout, and all of it.
+TEST(AdaptiveRendered, TilesOfAGridHaveOneResolutionEach) {
+    constexpr int grid = 2, levels = 6;
+    const Tiles tiles = tiles_of(test::built_in("courtyard"),
+                                 fmt::format("tiled,adaptive.grid={},adaptive.levels={}", grid, levels));
+    std::set<int> resolutions;
+    for (int cell = 0; cell < 1 << (2 * grid); ++cell) {
+        const ivec2 corner(cell & 3, cell >> 2);
+        std::set<int> of_cell;
+        for (int finer = 0; finer <= levels - grid; ++finer) {
+            int there = 0;
+            for (int i = 0; i < 1 << (2 * finer); ++i) {
+                const ivec2 part(i & ((1 << finer) - 1), i >> finer);
+                const int node = glsl::gn_adaptive_node(levels, 0, grid + finer, (corner << finer) + part);
+                there += tiles.pages[static_cast<std::size_t>(node)] != 0 ? 1 : 0;
+            }
+            EXPECT_TRUE(there == 0 || there == 1 << (2 * finer)) << "cell " << cell << " level " << grid + finer;
+            if (there != 0) {
+                of_cell.insert(grid + finer);
+            }
+        }
+        EXPECT_LE(of_cell.size(), 1U) << "cell " << cell;
+        resolutions.insert(of_cell.begin(), of_cell.end());
+    }
+    EXPECT_GT(resolutions.size(), 1U);
+}
+
+/// A floor, and over its middle a wire that no texel's centre of the first three levels meets: it lies on the border of their
+/// tiles. A camera sees the floor whole and beside the wire's shadow the wire.
+Scene wire_over_floor() {
+    Scene scene;
+    scene.name = "wire";
+    scene.materials.emplace_back();
+    const auto box = [&](const char* name, vec3 low, vec3 high) {
+        const auto base = static_cast<uint>(scene.positions_ws.size());
+        const auto first = static_cast<std::uint32_t>(scene.triangles.size());
+        for (const vec2 corner : {vec2(0, 0), vec2(0, 1), vec2(1, 1), vec2(1, 0)}) {
+            scene.positions_ws.emplace_back(glm::mix(low.x, high.x, corner.x), high.y,
+                                            glm::mix(low.z, high.z, corner.y));
+            scene.normals_ws.emplace_back(0, 1, 0);
+            scene.uvs.emplace_back(0);
+        }
+        scene.triangles.emplace_back(base, base + 1, base + 2);
+        scene.triangles.emplace_back(base, base + 2, base + 3);
+        scene.objects.push_back({name, first, 2, 0, Box{low, high}});
+    };
+    box("floor", vec3(-2, 0, -2), vec3(2, 0, 2));
+    box("wire", vec3(-2, 0.5F, -0.012F), vec3(2, 0.5F, 0.012F));
+    Light sun{"sun", {}};
+    sun.shape.kind = GN_LIGHT_DIRECTIONAL;
+    sun.shape.direction_ws = vec4(0, -1, 0, 0);
+    sun.shape.color = vec4(1);
+    scene.lights.push_back(sun);
+    // A row of pixels looks at the middle of its shadow.
+    scene.cameras = {Camera{.position_ws = vec3(0, 4, 5.025F), .forward_ws = glm::normalize(vec3(0, -4, -5)), .yfov = 0.9F}};
+    finish_scene(scene);
+    return scene;
+}
+
+/// [EASW09] 3.2.4.1: what the first refinement does not change is never refined, though the second one would show it. What every
+/// pixel asks for is drawn, whatever coarser tiles showed.
+TEST(AdaptiveRendered, RefinementMissesWhatTheFirstDoesNotChange) {
+    const auto missed = [](const std::string& mode) {
+        const auto compared =
+            test::compare(wire_over_floor(),
+                          "hard,placement=adaptive,adaptive.tile=32,adaptive.density=8,adaptive.levels=6,"
+                          "adaptive.start=0,adaptive.mode=" + mode,
+                          {.width = 240, .height = 180, .samples = 1});
+        EXPECT_GT(compared.errors.dark, 60U);
+        return compared.errors.leak.value_or(1);
+    };
+    EXPECT_GT(missed("qvsm"), 0.9);
+    EXPECT_GT(missed("asm"), 0.9);
+    EXPECT_LT(missed("rmsm"), 0.15);
+    EXPECT_LT(missed("qvsm,adaptive.threshold=-1"), 0.15);
+}
+
+/// Few tiles serve where samples see edges, and as well.
+TEST(AdaptiveRendered, EdgesAloneTakeFewerTiles) {
+    const Scene& scene = test::built_in("corridor");
+    const std::string size = "hard,placement=adaptive,adaptive.density=2,resolution=2048,adaptive.mode=";
+    EXPECT_LT(tiles_of(scene, size + "asm").views.size(), 0.8 * static_cast<double>(tiles_of(scene, size + "rmsm").views.size()));
+}
+
+/// The traced hard shadow, but for what a texel's half explains: a wrong sample has samples of the other V within a pixel and a
+/// half, or points of its own plane that see the other.
+TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
+    Scene scene = test::built_in("courtyard");
+    scene.lights.resize(1);
+    scene.lights[0].shape.angular_radius = 0;
+    const uint width = 240, height = 135;
+    const auto compared = test::compare(scene, "hard,placement=adaptive,resolution=4096,adaptive.levels=10",
+                                        {.width = width, .height = height, .samples = 1});
+    const std::vector<float>& technique = compared.visibility().values;
+    const std::vector<float>& reference = compared.truth.visibility;
+    const auto edges = edge_pixels(reference, compared.truth.counted, static_cast<int>(width), static_cast<int>(height));
+    const Truth truth(compared.scene);
+    std::size_t wrong = 0, unexplained = 0;
+    for (std::size_t i = 0; i < technique.size(); ++i) {
+        if (compared.truth.counted[i] == 0 || std::abs(technique[i] - reference[i]) <= 0.5F) {
+            continue;
+        }
+        ++wrong;
+        if (edges[i] == 0 && std::isinf(test::pixels_to_shadow(truth, compared.scene, compared.frame.samples, i,
+                                                               scene.lights[0].shape, reference[i]))) {
+            ++unexplained;
+        }
+    }
+    EXPECT_EQ(unexplained, 0U) << "of " << wrong;
+}
+
+}  // namespace
+}  // namespace gn
