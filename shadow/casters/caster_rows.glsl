@@ -2,7 +2,7 @@
 // Geometry stage of casters in logarithmic views. Straight edges are curves there: a triangle's bounding rectangle is drawn, and
 // every texel finds its own point of the triangle.
 #include "shadow/receiver/logarithm.glsl"
-layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; } push;
+layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; int draw; } push;
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(location = 1) flat out vec4 out_a;
