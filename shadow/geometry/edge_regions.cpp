@@ -9,6 +9,7 @@
 #include "shadow/geometry/seen_light.glsl"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/receiver/sent_points.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/casting.h"
 
@@ -244,6 +245,12 @@ std::string remark_masked(const Scene& scene, std::string_view part) {
         }
     }
     return "";
+}
+
+std::string remark_silhouettes(const Scene& scene, std::string_view part) {
+    const std::string masked = remark_masked(scene, part);
+    const std::string pictures = remark_pictures(scene, part);
+    return masked + (masked.empty() || pictures.empty() ? "" : "; ") + pictures;
 }
 
 bool has_extent(const GnLight& light) {

@@ -47,6 +47,8 @@ void add_edge_sides(const FrameInput& input, const VolumeBuffers& buffers, float
 
 /// What such a part says of a scene with masked casters, or "".
 std::string remark_masked(const Scene& scene, std::string_view part);
+/// The same, and that it knows no part of a picture that a light shows, where it sums what silhouettes hide.
+std::string remark_silhouettes(const Scene& scene, std::string_view part);
 
 /// Whether the light has any extent.
 bool has_extent(const GnLight& light);

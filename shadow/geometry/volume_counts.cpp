@@ -6,6 +6,7 @@
 // side of the samples is counted each component of the mesh decides for itself.
 #include "shadow/geometry/volume_steps.h"
 #include "shadow/geometry/volumes.glsl"
+#include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
 namespace gn {
@@ -30,6 +31,7 @@ RasterDesc mark_pipeline(const VolumeMarks& marks, const ShaderInputs& inputs) {
 
 ShaderInputs count_inputs(const FrameInput& input, const VolumeBuffers& buffers) {
     ShaderInputs inputs = volume_side_inputs(buffers);
+    add_gbuffer(inputs, input.device, input.samples);
     inputs.buffer("readonly buffer", "Indices", "uint indices[];", buffers.triangles)
         .buffer("readonly buffer", "Caps", "uint caps[];", buffers.caps)
         .buffer("readonly buffer", "Owners", "uint owners[];", buffers.owners);

@@ -59,13 +59,15 @@ EdgeBuffers make_edge_buffers(Device& device, const Scene& scene, const std::vec
     }
     made.list = build_edges(made.positions_ws(scene), made.triangles(scene), found.casts);
 
-    // A triangle's owner is its component, and how its caps are drawn. A body within a solid is never before a sample either.
+    // A triangle's owner is its component, and how its caps are drawn. A body within a solid is never before a sample either; the back
+    // of an open sheet may be (volumes.md).
     std::vector<std::uint32_t> owners(found.casts.size());
     for (std::size_t t = 0; t < owners.size(); ++t) {
         const std::uint32_t component = made.list.component_of[t];
         const std::uint32_t masked = found.masked[t];
         const std::uint32_t front = found.casts[t] == casts_from_its_front ? 1 : 0;
-        const std::uint32_t compared = masked | front;
+        const bool open = component != EdgeList::no_component && !made.list.components[component].closed;
+        const std::uint32_t compared = masked | front | (open ? 1U : 0U);
         owners[t] = component == EdgeList::no_component ? ~0U : component * 8 + masked * 4 + front * 2 + compared;
         made.opaque_triangles += compared == 0 ? 1 : 0;
     }

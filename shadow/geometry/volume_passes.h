@@ -24,7 +24,7 @@ struct EdgeBuffers {
     std::shared_ptr<const Proxies> proxies;  ///< null: the scene's own cast
     EdgeList list;
     std::vector<std::uint8_t> casts;     ///< per triangle, as for build_edges
-    std::uint32_t opaque_triangles = 0;  ///< whose caps nothing is behind; all others are compared
+    std::uint32_t opaque_triangles = 0;  ///< of solids, whose caps nothing is behind; all others are compared
     Buffer edges, first, around;         ///< as EdgeList
     /// Per triangle: component * 8, + 4 when masked, + 2 when its front alone casts, + 1 when its caps are compared; ~0: it casts nothing.
     Buffer owners;

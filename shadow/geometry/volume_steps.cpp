@@ -37,52 +37,8 @@ void main() {
 }
 )";
 
-// A compared cap's vertex: of the near cap and of the far one, or on the near plane.
-constexpr const char* compared_text = R"(
-layout(constant_id = 3) const int LISTED_BEFORE = 0;
-layout(constant_id = 4) const int ON_NEAR = 0;
-layout(location = 0) flat out int turned;
-#ifdef GN_VOLUMES_RUNS
-out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[5]; };
-#else
-out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
-#endif
-invariant gl_Position;
-void main() {
-    uint corners = gn_volumes_has_far_cap(u.frame) ? 6u : 3u;
-    uint slot = uint(gl_VertexIndex) / corners;
-    uint corner = uint(gl_VertexIndex) % corners;
-    uint cap = caps[LISTED_BEFORE != 0 ? u.frame.triangles - 1u - slot : u.frame.opaque_triangles + slot];
-    uint t = cap >> 1;
-    turned = int(cap & 1u);
-    // The near cap keeps the order of the triangle's corners, the far cap is its mirror image at infinity.
-    bool far = corner >= 3u;
-    vec3 p_ws = positions[indices[3u * t + (far ? (6u - corner) % 3u : corner)]];
-    vec4 corner_ws = far ? gn_volumes_extrude(p_ws, u.frame.light_ws, u.frame.reach) : vec4(p_ws, 1.0);
-    vec4 corner_cs = gn_view_position(u.frame.cs_from_ws, corner_ws);
-    if (ON_NEAR != 0) {
-        vec4 light_cs = gn_view_position(u.frame.cs_from_ws, u.frame.light_ws);
-        gl_Position = gn_volumes_on_near(corner_cs, light_cs);
-        gl_ClipDistance[0] = far ? -1.0 : gn_volumes_before_near(corner_cs, light_cs);
-        return;
-    }
-    gl_Position = corner_cs;
-    gl_ClipDistance[0] = gn_volumes_beyond_near(gl_Position);
-#ifdef GN_VOLUMES_RUNS
-    vec4 within = gn_volumes_within_run(runs[owners[t] >> 3], u.picture, gl_Position);
-    for (int i = 0; i < 4; ++i) {
-        gl_ClipDistance[i + 1] = within[i];
-    }
-#endif
-    // A triangle with one side lies before a sample only where it shows its back, which nobody sees: elsewhere it counts as
-    // every opaque cap does.
-    if ((owners[t] & 6u) == 2u &&
-        gn_volumes_side(positions[indices[3u * t]], positions[indices[3u * t + 1u]], positions[indices[3u * t + 2u]],
-                        u.frame.eye_ws) > 0) {
-        gl_Position.z = 0.0;
-    }
-}
-)";
+// A compared cap's vertex.
+constexpr const char* compared_text = "#include \"shadow/geometry/volume_compared.glsl\"\n";
 
 // Behind the sample a ray leaves volumes (+1) and enters them (-1); before it, it enters (+1) and leaves (-1). The far end is a
 // mirror image.
@@ -99,8 +55,16 @@ void main() {
 constexpr const char* compared_count_text = R"(
 layout(constant_id = 5) const int BEFORE = 0;
 layout(location = 0) flat in int turned;
+layout(location = 1) flat in vec3 to_eye_ws;
+layout(location = 2) flat in vec3 corner_of_ws;
 layout(location = 0) out float count;
 void main() {
+    if (to_eye_ws != vec3(0.0)) {
+        vec4 p_ws = gbuffer_position_texel(ivec2(gl_FragCoord.xy));
+        if (gn_volumes_beyond(to_eye_ws, corner_of_ws, p_ws.xyz) != (BEFORE != 0)) {
+            discard;
+        }
+    }
     count = (gl_FrontFacing == (turned == 0)) == (BEFORE != 0) ? 1.0 : -1.0;
 }
 )";
@@ -137,7 +101,7 @@ class Steps {
         const bool sliced = sliced_ && listed == 1 && before;
         add({"volume-side.vert", side_body, count_text, compare, constants, false, sliced}, sides_draw + 4 * listed,
             at);
-        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants, false, sliced},
+        add({"volume-compared.vert", compared_text, compared_count_text, compare, constants, false, sliced, true},
             compared_draw + 4 * listed, at);
     }
     /// The opaque caps of one list: no sample is behind them, so that they always count.
@@ -185,14 +149,17 @@ class Steps {
         SpecConstants constants;
         bool indexed = false;
         bool sliced = false;
+        bool reads = false;  ///< its fragments read the inputs
     };
     void add(const Shader& shader, std::uint32_t word, At at) {
         RasterDesc desc;
         const std::string defines = shader.sliced ? "#define GN_VOLUMES_RUNS\n" : "";
         desc.vertex = {ShaderKind::vertex, std::string(shader.name),
                        volume_shader(inputs_, defines + std::string(shader.body))};
-        desc.fragment =
-            ShaderSource{ShaderKind::fragment, "volume-count.frag", all_fragments_ ? one_text : shader.count};
+        desc.fragment = ShaderSource{ShaderKind::fragment, "volume-count.frag",
+                                     all_fragments_ ? one_text
+                                     : shader.reads ? volume_shader(inputs_, shader.count)
+                                                    : shader.count};
         desc.constants = shader.constants;
         desc.blend = Blend::add;
         desc.depth_test = desc.depth_clamp = true;

@@ -168,6 +168,13 @@ GN_FN bool gn_volumes_may_hold(vec3 low_ws, vec3 high_ws, vec3 from_ws, vec3 to_
     return enter <= leave;
 }
 
+// Whether a sample lies beyond a triangle as the eye sees it, by more than rounding of a plane and of a position in it (4 units of the
+// coordinates): unit normal towards the eye, and a corner.
+GN_FN bool gn_volumes_beyond(vec3 to_eye_ws, vec3 corner_ws, vec3 p_ws) {
+    float reach = 4.0f / 8388608.0f * dot(abs(to_eye_ws), max(abs(p_ws), abs(corner_ws)));
+    return dot(to_eye_ws, p_ws - corner_ws) < -reach;
+}
+
 // Whether the sample lies on the edge as far as the rasterizer can tell. A side that hangs from an edge of the sample's
 // own surface is behind the sample: it lies beyond the surface's plane, the camera and the light before it.
 GN_FN bool gn_volumes_touches(GnVolumesFrame frame, vec3 p_ws, vec3 n_ws, vec3 a_ws, vec3 b_ws) {

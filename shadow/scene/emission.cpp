@@ -5,18 +5,29 @@
 #include "shadow/scene/model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gn {
 namespace {
 
+/// Linear values of all bytes.
+const std::array<float, 256>& linear_of_bytes() {
+    static const std::array<float, 256> values = [] {
+        std::array<float, 256> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            made.at(i) = linear_from_srgb(static_cast<float>(i) / 255.0F);
+        }
+        return made;
+    }();
+    return values;
+}
+
 vec3 texel(const Image8& picture, int x, int y) {
     const auto index =
         4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
-    const auto linear = [&](std::size_t c) {
-        return linear_from_srgb(static_cast<float>(picture.rgba[index + c]) / 255.0F);
-    };
-    return {linear(0), linear(1), linear(2)};
+    const std::array<float, 256>& linear = linear_of_bytes();
+    return {linear[picture.rgba[index]], linear[picture.rgba[index + 1]], linear[picture.rgba[index + 2]]};
 }
 
 }  // namespace
@@ -52,10 +63,11 @@ void complete_emission(Scene& scene, Light& light) {
         set_emission(light.shape, -1);
         return;
     }
-    add_note(scene.notes,
-             fmt::format("Light '{}' shows a picture: backprojection with its bitmask tells which part of it is "
-                         "hidden, all else how much of its area.",
-                         light.name));
+    add_note(
+        scene.notes,
+        fmt::format("Light '{}' shows a picture: view-samples, depth-complexity and backprojection with its bitmask "
+                    "tell which part of it is hidden, all else how much of its area.",
+                    light.name));
 }
 
 }  // namespace gn

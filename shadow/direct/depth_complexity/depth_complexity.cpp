@@ -19,6 +19,7 @@
 #include "shadow/geometry/seen_light.glsl"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/receiver/sent_points.h"
 #include "shadow/recipe/prepared.h"
 #include "shadow/scene/light_samples.h"
 
@@ -220,7 +221,9 @@ std::string resolve_defines(const Counters& counters, std::size_t votes, bool ma
 
 Visibility add_resolve(const FrameInput& input, const Counters& counters, const GnDepthComplexityParams& params,
                        TextureHandle met, const std::vector<TextureHandle>& volumes) {
-    Visibility result{create_visibility(input.graph, input.samples)};
+    const SentPoints sent = sent_by_points(input, static_cast<int>(counters.samples));
+    const uint channels = channels_of(sent);
+    Visibility result{create_visibility(input.graph, input.samples, channels)};
     const BufferHandle crowded = add_crowded(input);
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
@@ -228,12 +231,13 @@ Visibility add_resolve(const FrameInput& input, const Counters& counters, const 
     for (std::size_t i = 0; i < volumes.size(); ++i) {
         inputs.texels(input.device, VK_FORMAT_R32_SFLOAT, "2D", fmt::format("volumes{}", i), volumes[i]);
     }
-    inputs.image("r32f", "writeonly", "image2D", "visibility", result.image)
+    inputs.image(channels == 1 ? "r32f" : "rgba32f", "writeonly", "image2D", "visibility", result.image)
         .buffer("buffer", "Crowded", "uint crowded_samples; uint crowded_edges;", crowded)
         .constant("GnLight", "light", input.light().shape)
         .constant("GnLight", "whole", input.whole_light().shape)
         .constant("float", "limit", static_cast<float>((1 << (counters.bits - 1)) - 1));
     add_counters(inputs, counters, "readonly buffer");
+    add_sent_points(inputs, sent);
     const bool told = holds(input.sides, "depth-complexity");
     if (told) {
         const TextureHandle surfaces = create_visibility(input.graph, input.samples);
@@ -245,7 +249,8 @@ Visibility add_resolve(const FrameInput& input, const Counters& counters, const 
         tree->add_to(inputs, input);
     }
     const std::string defines =
-        resolve_defines(counters, volumes.size(), tree.has_value(), params.masked == GN_DEPTH_COMPLEXITY_CENTRE, told);
+        resolve_defines(counters, volumes.size(), tree.has_value(), params.masked == GN_DEPTH_COMPLEXITY_CENTRE, told) +
+        sent_text(sent);
     const auto shader = compute_once(input.prepared, "depth-complexity: resolve", hashed(inputs).text(defines), [&] {
         return (tree ? MaskedTree::types(input.device) : "") + defines + part_include + inputs.text() +
                (tree ? MaskedTree::functions() : "") +

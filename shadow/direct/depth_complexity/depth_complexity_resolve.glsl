@@ -16,7 +16,7 @@ void main() {
     vec4 at = gbuffer_position_texel(pixel);
     vec3 p_ws = at.xyz;
     vec3 n_ws = gbuffer_normal_texel(pixel).xyz;
-    float v = 0.0;
+    GN_V v = GN_V(0.0);
     int most = 0;
     if (at.w > 0.5 && gn_counted(u.whole, p_ws, n_ws)) {
         // Find the constant by the volumes of the references that hold the sample.
@@ -36,23 +36,25 @@ void main() {
                       heights.z > 0.25 * highest ? votes.z : best);
         int constant = gn_depth_constant(votes, least);
 
-        // The points with nothing before them, above the surface, are seen.
+        // The points with nothing before them, above the surface, are seen, and weigh what they send.
         GnSeenLight seen = gn_seen_light(u.light, p_ws);
         vec3 x_ws = seen.x_ws / dot(seen.x_ws, seen.x_ws);
         vec3 y_ws = seen.y_ws / dot(seen.y_ws, seen.y_ws);
         bool sun = u.light.kind == uint(GN_LIGHT_DIRECTIONAL);
-        int lit = 0;
+        GN_V lit = GN_V(0.0);
+        GN_V sends = GN_V(0.0);
         for (uint i = 0u; i < u.samples; ++i) {
             int count = counter_of(word, i) + constant;
             most = max(most, count);
             vec3 to_point_ws = seen.centre_ws + x_ws * points[i].x + y_ws * points[i].y;
             vec4 point_ws = sun ? vec4(to_point_ws, 0.0) : vec4(p_ws + to_point_ws, 1.0);
             bool seen_point = count == 0 && dot(n_ws, to_point_ws) > 0.0;
-            lit += seen_point && !GN_DEPTH_MASKED(point_ws) ? 1 : 0;
+            sends += GN_SENT(i);
+            lit += seen_point && !GN_DEPTH_MASKED(point_ws) ? GN_V(GN_SENT(i)) : GN_V(0.0);
         }
-        v = float(lit) / float(u.samples);
+        v = lit / sends;
         vec4 centre_ws = sun ? vec4(seen.centre_ws, 0.0) : vec4(p_ws + seen.centre_ws, 1.0);
-        v = GN_DEPTH_MASKED_CENTRE(centre_ws) ? 0.0 : v;
+        v = GN_DEPTH_MASKED_CENTRE(centre_ws) ? GN_V(0.0) : v;
 
         // Counters that more edges touched than they hold may have wrapped.
         float edges = edges_texel(pixel).r;
@@ -61,6 +63,6 @@ void main() {
             atomicMax(crowded_edges, uint(edges));
         }
     }
-    imageStore(visibility, pixel, vec4(v));
+    imageStore(visibility, pixel, GN_V_TEXEL(v));
     GN_DEPTH_TELL
 }

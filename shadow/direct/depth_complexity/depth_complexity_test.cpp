@@ -6,6 +6,7 @@
 #include "shadow/geometry/edges.h"
 #include "shadow/scene/light_samples.h"
 #include "tests/direct_scenes.h"
+#include "tests/panels.h"
 
 #include <gtest/gtest.h>
 
@@ -282,6 +283,27 @@ TEST(DepthComplexityRendered, EqualsTracingTheSamePoints) {
         EXPECT_LE(d.one, d.judged / 500) << light_kind_names.at(light.kind) << ", the worst " << d.worst;
         EXPECT_EQ(d.more, 0U) << light_kind_names.at(light.kind) << ", " << d.first;
     }
+}
+
+TEST(DepthComplexityRendered, APicturesPointsWeighWhatTheySend) {
+    const test::ValidationGuard guard;
+    Scene scene = crowded_garden().light(area_lights()[3]).scene();
+    test::show_picture(scene, test::red_and_blue());
+    SceneGpu gpu = upload_scene(device(), scene);
+    const FrameResult frame =
+        render_frame(device(), gpu, scene.cameras.front(), load_recipe("depth-complexity,depth-complexity.samples=16"),
+                     {.width = 96, .height = 72, .picture = false});
+    const Image& v = frame.visibility.front();
+    ASSERT_EQ(v.channels, 3);
+    const test::TracedPicture traced = test::trace_picture(scene, frame.samples, 16);
+    std::size_t judged = 0, wrong = 0;
+    for (std::size_t i = 0; i < v.pixels(); ++i) {
+        const vec3 seen(v.values[3 * i], v.values[3 * i + 1], v.values[3 * i + 2]);
+        judged += traced.counted[i];
+        wrong += traced.counted[i] != 0 && glm::distance(seen, traced.visibility[i]) > 1e-4F ? 1 : 0;
+    }
+    EXPECT_GT(traced.coloured, 100);
+    EXPECT_LE(wrong, judged / 500) << "points on an edge to the last bit, as of white lights";
 }
 
 TEST(DepthComplexityRendered, OneVoteErrsOnHardEdgesAlone) {

@@ -61,7 +61,7 @@ const Part& direct_single_sample() {
         p.params_type = "GnSingleSampleParams";
         p.glsl = "shadow/direct/single_sample/single_sample.glsl";
         p.add_direct = add_single_sample;
-        p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "single-sample"); };
+        p.remark = [](const Scene& scene, const Recipe&) { return remark_silhouettes(scene, "single-sample"); };
         return p;
     }();
     return part;

@@ -175,7 +175,7 @@ const Part& direct_soft_irregular() {
         p.reads = {"placement", "resolution"};
         p.add_direct = add_soft_irregular;
         p.refuses = refuses;
-        p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "soft-irregular"); };
+        p.remark = [](const Scene& scene, const Recipe&) { return remark_silhouettes(scene, "soft-irregular"); };
         return p;
     }();
     return part;

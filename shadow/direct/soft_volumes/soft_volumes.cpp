@@ -161,7 +161,7 @@ const Part& direct_soft_volumes() {
         p.glsl = "shadow/direct/soft_volumes/soft_volumes.glsl";
         p.add_direct = add_soft_volumes;
         p.refuses = refuses;
-        p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "soft-volumes"); };
+        p.remark = [](const Scene& scene, const Recipe&) { return remark_silhouettes(scene, "soft-volumes"); };
         return p;
     }();
     return part;

@@ -8,7 +8,7 @@
 //
 // Stands on: shadow/placement/place, shadow/direct/irregular_z (a sample's texel, what it refuses)
 // Also here: view_samples_lists.h, view_samples_lists.cpp, view_samples_table.h, view_samples_table.cpp, view_samples_walk.h,
-// view_samples_walk.cpp, view_samples_walk.glsl.
+// view_samples_walk.cpp, view_samples_walk.glsl, view_samples_pictures_test.cpp.
 #include "shadow/direct/view_samples/view_samples.h"
 
 #include "gpu/zeros_pass.h"
@@ -19,8 +19,10 @@
 #include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/receiver/sent_points.h"
 #include "shadow/recipe/prepared.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gn {
@@ -53,7 +55,7 @@ void main() {
 }
 )";
 
-// [EASW09] section 5.3.3: V is the share of points that are left, of a sphere by what they weigh.
+// [EASW09] section 5.3.3: V is the share of points that are left, of a sphere by what they weigh, of a picture by what they send.
 constexpr const char* resolve_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
@@ -63,25 +65,26 @@ void main() {
     }
     uint index = uint(pixel.y) * u.width + uint(pixel.x);
     uint place = entries[index].x;
-    float sum = 0.0;
-    float weights = place == 0u ? 1.0 : 0.0;
+    GN_V sum = GN_V(0.0);
+    GN_V weights = GN_V(place == 0u ? 1.0 : 0.0);
     for (uint word = 0u; word < GN_WORDS && place != 0u; ++word) {
         uint bits = hidden[(place - 1u) * GN_WORDS + word];
-#if GN_SPHERE
+#if GN_WEIGHTED
         vec3 p_ws = gbuffer_position_texel(pixel).xyz;
         for (uint i = 0u; i < min(u.count - 32u * word, 32u); ++i) {
             GnLight one = u.whole;
-            one.position_ws = light_points[pattern_of(index) * u.count + 32u * word + i];
-            float weight = gn_point_weight(u.whole, one, p_ws);
+            uint point = pattern_of(index) * u.count + 32u * word + i;
+            one.position_ws = light_points[point];
+            GN_V weight = gn_point_weight(u.whole, one, p_ws) * GN_SENT(point);
             weights += weight;
-            sum += (bits & (1u << i)) == 0u ? weight : 0.0;
+            sum += (bits & (1u << i)) == 0u ? weight : GN_V(0.0);
         }
 #else
         sum += float(32 - bitCount(bits));
         weights = float(u.count);
 #endif
     }
-    imageStore(visibility, pixel, vec4(weights > 0.0 ? min(sum / weights, 1.0) : 1.0));
+    imageStore(visibility, pixel, GN_V_TEXEL(weights == GN_V(0.0) ? GN_V(1.0) : min(sum / weights, GN_V(1.0))));
 }
 )";
 
@@ -109,14 +112,18 @@ void add_horizon(const MappedSamples& m) {
 }
 
 Visibility add_resolve_points(const MappedSamples& m) {
-    Visibility result{create_visibility(m.input.graph, m.input.samples)};
+    const SentPoints sent = sent_by_points(m.input, static_cast<int>(m.samples.points.size()), m.samples.side);
+    const uint channels = channels_of(sent);
+    Visibility result{create_visibility(m.input.graph, m.input.samples, channels)};
     ShaderInputs inputs;
     add_gbuffer(inputs, m.input.device, m.input.samples);
     inputs.buffer("readonly buffer", "Entries", "uvec2 entries[];", m.sorted.entries)
         .buffer("readonly buffer", "Hidden", "uint hidden[];", m.hidden)
-        .image("r32f", "writeonly", "image2D", "visibility", result.image);
+        .image(channels == 1 ? "r32f" : "rgba32f", "writeonly", "image2D", "visibility", result.image);
     add_mapped_points(m, inputs);
-    const std::string before = mapped_defines(m);
+    add_sent_points(inputs, sent);
+    const std::string before =
+        mapped_defines(m) + sent_text(sent) + fmt::format("#define GN_WEIGHTED (GN_SPHERE || {:d})\n", sent != nullptr);
     const auto shader = compute_once(m.input.prepared, "view-samples: resolve", hashed(inputs).text(before),
                                      [&] { return before + inputs.text() + pattern_text + resolve_text; });
     add_pixel_pass(m.input.graph, "view-samples: resolve", inputs, shader, m.input.samples.width,
@@ -169,12 +176,28 @@ void add_told(const MappedSamples& m, Visibility& result, std::string_view name,
     result.sides.push_back({std::string(name), image, {}});
 }
 
+/// Pictures whose lists, trees and bits no storage block holds are refused before any is made.
+void check_size(const FrameInput& input, std::uint32_t words, int points) {
+    const std::uint64_t samples = std::uint64_t{input.samples.width} * input.samples.height;
+    const std::uint64_t bytes = input.device.properties().limits.maxStorageBufferRange;
+    const std::uint64_t by_words = bytes / (words * sizeof(std::uint32_t));
+    const std::uint64_t most = std::min(SortedSamples::most_places(bytes), by_words);
+    if (samples > most) {
+        refuse(
+            "direct 'view-samples' lists {} x {} view samples with {} points of the light each, and storage blocks of "
+            "device '{}' of {} bytes hold {} of them; a smaller picture fits{}",
+            input.samples.width, input.samples.height, points, input.device.info().name, bytes, most,
+            by_words < samples && words > 1 ? ", or a smaller view-samples.samples" : "");
+    }
+}
+
 Visibility add_view_samples_part(const FrameInput& input, const Recipe& recipe) {
     MappedSamples m{.input = input, .params = recipe.of<GnViewSamplesParams>("view-samples")};
     m.samples =
         light_samples(input.light().shape, m.params.samples * m.params.patterns * m.params.patterns, m.params.patterns);
     m.points = points_ws(m.samples);
     m.words = (static_cast<std::uint32_t>(m.params.samples) + 31) / 32;
+    check_size(input, m.words, m.params.samples);
 
     // Samples stand in the lists of texels, and begin with what their own surface hides.
     m.sorted = add_sorted_samples(input, recipe, place_views(input, recipe), light_axes(input.light().shape));

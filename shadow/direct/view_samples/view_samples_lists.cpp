@@ -238,15 +238,14 @@ SortedSamples add_sorted_samples(const FrameInput& input, const Recipe& recipe, 
                                  const glsl::GnLightAxes& axes) {
     static_assert(SortedSamples::tree_levels % 3 == 0, "boxes are made three levels at a time");
     SortedSamples sorted{.pixels = input.samples.width * input.samples.height};
-    constexpr std::uint32_t each = 1U << (2 * SortedSamples::tree_levels);
-    sorted.trees = (sorted.pixels + each - 1) / each;
+    sorted.trees = (sorted.pixels + SortedSamples::tree_places - 1) / SortedSamples::tree_places;
     const auto create = [&](const char* name, VkDeviceSize count, VkDeviceSize bytes) {
         return input.graph.create(BufferDesc{.name = name, .bytes = count * bytes});
     };
-    constexpr VkDeviceSize nodes = (4U << (2 * SortedSamples::tree_levels)) / 3;
     sorted.entries = create("view-samples entries", sorted.pixels, sizeof(uvec2));
-    sorted.points = create("view-samples points", 2 * VkDeviceSize{sorted.pixels}, sizeof(uvec4));
-    sorted.nodes = create("view-samples nodes", nodes * sorted.trees, 2 * sizeof(uvec4));
+    sorted.points = create("view-samples points", sorted.pixels, SortedSamples::point_bytes);
+    sorted.nodes =
+        create("view-samples nodes", VkDeviceSize{SortedSamples::tree_nodes} * sorted.trees, SortedSamples::node_bytes);
     sorted.used = create("view-samples used", 1, sizeof(std::uint32_t));
 
     const auto bits = static_cast<std::uint32_t>(std::bit_width(std::max(views.resolution, 1U) - 1));

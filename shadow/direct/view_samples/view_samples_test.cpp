@@ -190,6 +190,57 @@ TEST(MayHide, LeavesOutNoBoxInWhichASampleLosesAPoint) {
     }
 }
 
+/// Whether an edge that clears a box does so as seen from each of its corners, towards each corner of a light: the edge's plane is bilinear
+/// in both, so that nothing between the corners does worse.
+TEST(MayHide, AnEdgeThatClearsABoxClearsItsCorners) {
+    std::mt19937 random(14);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
+    const auto corner = [](int i) { return dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1); };
+    GnLight small_sun = sun({0.4F, -1, 0.2F}), small = rectangle({1, 3, -0.5F}, {0, 0, 0});
+    small_sun.angular_radius = 0;
+    small.half_size = vec2(0);
+    std::vector<GnLight> lights = area_lights();
+    lights.insert(lights.end(), {small_sun, small});
+    for (const GnLight& light : lights) {
+        const GnSampledLight sampled = sampled_light(light);
+        int clear = 0, nearly = 0;
+        for (int i = 0; i < 4000; ++i) {
+            // Edges on all sides of the box's middle: also behind it, as seen from the light, where other places of the box lie behind them.
+            const vec3 middle = 2.0F * any(), half = 0.8F * glm::abs(any()), b = 1.5F * any(), c = b + any();
+            const vec3 d = vec3(sampled.centre_ws) - middle * sampled.centre_ws.w;
+            const float side = i % 2 == 0 ? 1.0F : -1.0F;
+            double most = -1e30, size = 0;
+            for (int k = 0; k < 8; ++k) {
+                const dvec3 p = corner(k) * dvec3(half);
+                for (int j = 0; j < 8; ++j) {
+                    const dvec3 e = 0.5 * corner(j);
+                    // A round light lies within its square, and has its own corners nowhere.
+                    const double within = sampled.square != 0  ? 1
+                                          : sampled.solid != 0 ? 1 / std::sqrt(3)
+                                                               : std::sqrt(0.5);
+                    const dvec3 l =
+                        dvec3(d) +
+                        within * (e.x * dvec3(sampled.x_ws) + e.y * dvec3(sampled.y_ws) + e.z * dvec3(sampled.z_ws)) -
+                        p * static_cast<double>(sampled.centre_ws.w);
+                    const dvec3 edge = glm::cross(dvec3(b) - p, dvec3(c) - p);
+                    most = std::max(most, static_cast<double>(side) * glm::dot(l, edge));
+                    size = std::max(size, glm::length(l) * glm::length(edge));
+                }
+            }
+            const bool clears = glsl::gn_edge_clears(sampled, side, b, c, d, half, 0.0F);
+            EXPECT_TRUE(!clears || most < 0) << "kind " << light.kind << ", try " << i << ": " << most;
+            clear += clears ? 1 : 0;
+            nearly += clears && most > -0.05 * size ? 1 : 0;
+        }
+        EXPECT_GT(clear, 300) << "kind " << light.kind;
+        // Of a light without extent the plane is linear in the place, and the bound is attained.
+        if (glm::length(sampled.x_ws) == 0) {
+            EXPECT_GT(nearly, 10) << "kind " << light.kind;
+        }
+    }
+}
+
 FrameResult render(const Scene& scene, const std::string& recipe, uint width = 96, uint height = 72) {
     const test::ValidationGuard guard;
     SceneGpu uploaded = upload_scene(device(), scene);
@@ -348,6 +399,11 @@ TEST(ViewSamplesRendered, WhatCannotBeIsRefusedByName) {
     };
     EXPECT_NE(refused("view-samples,view-samples.samples=300,view-samples.patterns=2").find("at most 256"),
               std::string::npos);
+    const FrameResult large =
+        render_frame(device(), uploaded, scene.cameras.front(), load_recipe("view-samples,view-samples.samples=1024"),
+                     {.width = 1200, .height = 900, .visibility = false, .picture = false});
+    EXPECT_NE(large.refused.front().find("1200 x 900 view samples with 1024 points"), std::string::npos);
+    EXPECT_NE(large.refused.front().find("a smaller view-samples.samples"), std::string::npos);
     EXPECT_NE(refused("view-samples,placement=paraboloid").find("use auto or cube"), std::string::npos);
     EXPECT_NE(
         refused("view-samples,view-samples.angles=1024,view-samples.offsets=1024").find("fewer view-samples.angles"),

@@ -59,7 +59,7 @@ const Part& direct_wedges() {
         p.params_type = "GnWedgesParams";
         p.glsl = "shadow/direct/wedges/wedges.glsl";
         p.add_direct = add_wedges;
-        p.remark = [](const Scene& scene, const Recipe&) { return remark_masked(scene, "wedges"); };
+        p.remark = [](const Scene& scene, const Recipe&) { return remark_silhouettes(scene, "wedges"); };
         return p;
     }();
     return part;
