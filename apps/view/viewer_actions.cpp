@@ -200,7 +200,12 @@ void Viewer::take_window(const std::filesystem::path& path) {
 void Viewer::take_pictures(const std::filesystem::path& folder, const std::string& name) {
     trying([&] {
         std::filesystem::create_directories(folder);
+        message = "wrote pictures to " + folder.string();
         for (std::size_t i = 0; i < viewports_.size(); ++i) {
+            if (!viewports_[i]->show.empty()) {
+                message += fmt::format("; none of viewport {}, which shows {}", i + 1, viewports_[i]->show);
+                continue;
+            }
             const std::string recipe = slug(viewports_[i]->recipe.text().text());
             const bool again = std::any_of(viewports_.begin(), viewports_.begin() + static_cast<std::ptrdiff_t>(i),
                                            [&](const auto& o) { return slug(o->recipe.text().text()) == recipe; });
@@ -209,7 +214,6 @@ void Viewer::take_pictures(const std::filesystem::path& folder, const std::strin
                 trying([&] { write_png(path, tonemap(radiance, automatic_exposure(radiance))); });
             });
         }
-        message = "wrote pictures to " + folder.string();
     });
 }
 

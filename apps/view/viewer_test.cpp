@@ -42,6 +42,7 @@ ViewSetup setup_of(const std::string& scene, const std::vector<std::string>& rec
         setup.viewports.push_back({.recipe = recipe, .view = "", .camera = "", .show = ""});
     }
     setup.picture = Size{160, 90};
+    setup.window = Size{720, 400};
     return setup;
 }
 
@@ -103,15 +104,20 @@ TEST_F(ViewerTest, DrawsTheCourtyardInFourViewportsAndThenCreatesNothing) {
     ViewSetup setup =
         setup_of("courtyard", {"hard,resolution=256", "pcf,resolution=256", "vsm,resolution=256", "none"});
     Viewer viewer(device(), setup, nullptr);
-    draw(viewer, 8);
-    const Counters steady = device().counters();
-    // The camera flies, as it does under a hand.
+    // The camera flies, as it does under a hand; maps of a view that stands still are kept, and have a plan of their own.
     Camera camera = viewer.viewport(0).camera;
-    const int frames = thorough() ? 200 : 20;
-    for (int i = 0; i < frames; ++i) {
+    const auto fly = [&] {
         camera.position_ws.x += 0.01F;
         viewer.set_camera(0, camera, false);
         viewer.frame();
+    };
+    for (int i = 0; i < 6; ++i) {
+        fly();
+    }
+    const Counters steady = device().counters();
+    const int frames = thorough() ? 200 : 12;
+    for (int i = 0; i < frames; ++i) {
+        fly();
         ASSERT_EQ(device().counters(), steady) << "frame " << viewer.frames_drawn();
     }
     for (std::size_t i = 0; i < viewer.viewports(); ++i) {
@@ -228,38 +234,6 @@ TEST_F(ViewerTest, ShowsWhatARecipeHides) {
     viewer.viewport(0).show.clear();
     draw(viewer, 3);
     EXPECT_EQ(viewer.viewport(0).shown().desc().width, 160U);
-}
-
-TEST_F(ViewerTest, TimesPassesWhereItIsAsked) {
-    ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
-    setup.window = Size{1000, 2600};
-    Viewer viewer(device(), setup, nullptr);
-    draw(viewer, 3);
-    EXPECT_GT(viewer.viewport(0).costs().transient_bytes, 0U);
-    if (!device().has(Feature::timestamps)) {
-        click(viewer, "measures");
-        EXPECT_TRUE(viewer.measures);
-    }
-    draw(viewer, 12);
-    double sum = 0;
-    for (const PassTime& pass : viewer.viewport(0).costs().passes) {
-        sum += pass.ms;
-    }
-    EXPECT_GT(sum, 0.0);
-    EXPECT_EQ(viewer.viewport(0).trouble, "");
-}
-
-TEST_F(ViewerTest, HoldsARecipeAgainstAnother) {
-    ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
-    setup.against = Against::recipe;
-    setup.other = "hard,resolution=128";
-    setup.error = true;
-    Viewer viewer(device(), setup, nullptr);
-    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.viewport(0).other.now() != nullptr; }));
-    draw(viewer, 6);
-    const Counters steady = device().counters();
-    draw(viewer, 6);
-    EXPECT_EQ(device().counters(), steady);
 }
 
 /// A display server of its own, as long as a test.
