@@ -34,8 +34,8 @@ TracedPicture trace_picture(const Scene& scene, const CpuSamples& samples, int c
     TracedPicture traced{.visibility = std::vector<vec3>(size, vec3(0)), .counted = {}};
     for (std::size_t k = 0; k < points.points.size(); ++k) {
         const LightSamples one{.points = {points.points[k]}};
-        const TruthResult ray = truth.trace(samples.position_ws, samples.normal_ws, light,
-                                            {.exactly = &one, .width = samples.width});
+        const TruthResult ray =
+            truth.trace(samples.position_ws, samples.normal_ws, light, {.exactly = &one, .width = samples.width});
         traced.counted = ray.counted;
         for (std::size_t i = 0; i < size; ++i) {
             const ivec2 pixel(static_cast<int>(i % samples.width), static_cast<int>(i / samples.width));

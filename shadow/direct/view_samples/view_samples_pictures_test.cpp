@@ -28,8 +28,8 @@ TEST(ViewSamplesPictures, EveryPointWeighsWhatItSendsInEachColour) {
     Scene scene = garden_under_a_panel();
     test::show_picture(scene, test::red_and_blue());
     for (const auto& [points, side] : {std::pair{32, 1}, {40, 2}}) {
-        const FrameResult frame = render(
-            scene, fmt::format("view-samples,view-samples.samples={},view-samples.patterns={}", points, side));
+        const FrameResult frame =
+            render(scene, fmt::format("view-samples,view-samples.samples={},view-samples.patterns={}", points, side));
         const Image& v = frame.visibility.front();
         ASSERT_EQ(v.channels, 3);
         const test::TracedPicture traced = test::trace_picture(scene, frame.samples, points * side * side, side);
@@ -68,9 +68,8 @@ TEST(ViewSamplesPictures, ComeNearTheTruthOfThePicture) {
     const auto rms = [](const Scene& scene) {
         const FrameResult frame = render(scene, "view-samples,view-samples.samples=256");
         const Image& v = frame.visibility.front();
-        const TruthResult truth =
-            Truth(scene).trace(frame.samples.position_ws, frame.samples.normal_ws, scene.lights.front(),
-                               {.samples = 256, .channels = v.channels});
+        const TruthResult truth = Truth(scene).trace(frame.samples.position_ws, frame.samples.normal_ws,
+                                                     scene.lights.front(), {.samples = 256, .channels = v.channels});
         double sum = 0, count = 0;
         for (std::size_t i = 0; i < v.values.size(); ++i) {
             const double off = static_cast<double>(v.values[i]) - static_cast<double>(truth.visibility[i]);
