@@ -159,8 +159,8 @@ GnTreeConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
 
 /// Says, when the frame's answer comes, whose texels are larger than they should be.
 void tell_coarser(const FrameInput& input, const GnTreeConstants& t, BufferHandle counts) {
-    input.graph.answer(counts, [t, name = input.light().name, remarks = input.late_remarks](
-                                   std::span<const std::byte> bytes) {
+    input.graph.answer(counts, [t, name = input.light().name,
+                                remarks = input.late_remarks](std::span<const std::byte> bytes) {
         GnTreeCounts c;
         std::memcpy(&c, bytes.data(), sizeof c);
         if (remarks == nullptr) {
@@ -175,10 +175,11 @@ void tell_coarser(const FrameInput& input, const GnTreeConstants& t, BufferHandl
         }
         // A few in each picture are always grazed.
         if (c.steep > c.samples / 256) {
-            remarks->insert(fmt::format(
-                "the finest tiles of placement 'adaptive' have texels larger than a pixel for {:.2g} % of the view samples "
-                "of light '{}'; more adaptive.levels or a larger adaptive.tile make them finer",
-                100.0 * c.steep / c.samples, name));
+            remarks->insert(
+                fmt::format("the finest tiles of placement 'adaptive' have texels larger than a pixel for {:.2g} % of "
+                            "the view samples "
+                            "of light '{}'; more adaptive.levels or a larger adaptive.tile make them finer",
+                            100.0 * c.steep / c.samples, name));
         }
     });
 }
@@ -221,14 +222,16 @@ LightViews place_adaptive(const FrameInput& input, const Recipe& recipe) {
     const Atlas atlas = choose_atlas(recipe, params, guard);
     if (atlas.texels() < atlas.tile / 4 || atlas.texels() < 1 || params.tile > recipe.resolution) {
         refuse(
-            "placement 'adaptive' needs {} texels on each side of a tile of {} for what kernels reach; use an adaptive.tile "
+            "placement 'adaptive' needs {} texels on each side of a tile of {} for what kernels reach; use an "
+            "adaptive.tile "
             "of at least {}, or 0, which chooses one, and a resolution not below it",
             atlas.border, atlas.tile, std::bit_ceil(static_cast<unsigned>(4 * atlas.border)));
     }
     const LightViews maps = whole_maps(input, guard, atlas);
     if (static_cast<std::size_t>(atlas.tiles) < maps.views.size()) {
         refuse(
-            "placement 'adaptive' looks at light '{}' by {} maps, and its budget holds {} tiles; use more adaptive.maps, a "
+            "placement 'adaptive' looks at light '{}' by {} maps, and its budget holds {} tiles; use more "
+            "adaptive.maps, a "
             "smaller adaptive.tile or a larger resolution",
             input.light().name, maps.views.size(), atlas.tiles);
     }
@@ -250,11 +253,12 @@ LightViews place_adaptive(const FrameInput& input, const Recipe& recipe) {
 
 ParamTable rows() {
     return param_table<GnAdaptiveParams>({
-        GN_CHOICE(GnAdaptiveParams, mode,
-                  "What tiles follow: what each pixel asks for (rmsm), what a small picture's pixels ask for around them "
-                  "(fvsm), how many pixels lie in each tile of a grid (tiled), edges that the samples see in coarser tiles "
-                  "(asm), or whether finer tiles change what they see (qvsm).",
-                  "rmsm", "fvsm", "tiled", "asm", "qvsm"),
+        GN_CHOICE(
+            GnAdaptiveParams, mode,
+            "What tiles follow: what each pixel asks for (rmsm), what a small picture's pixels ask for around them "
+            "(fvsm), how many pixels lie in each tile of a grid (tiled), edges that the samples see in coarser tiles "
+            "(asm), or whether finer tiles change what they see (qvsm).",
+            "rmsm", "fvsm", "tiled", "asm", "qvsm"),
         GN_PARAM(GnAdaptiveParams, maps, integer, 1, 64, "maps",
                  "The budget: so many maps of the recipe's resolution hold all tiles. Over it tiles become coarser "
                  "where that shows least."),
@@ -275,7 +279,8 @@ ParamTable rows() {
         GN_PARAM(GnAdaptiveParams, rounds, integer, 0, 8, "",
                  "With asm and qvsm: levels that are drawn and looked at, one after the other, each at a map's cost."),
         GN_PARAM(GnAdaptiveParams, threshold, real, -1, 1, "of the picture",
-                 "With qvsm: pixels that the last refinement must have changed in a tile for the next one; -1 refines always."),
+                 "With qvsm: pixels that the last refinement must have changed in a tile for the next one; -1 refines "
+                 "always."),
     });
 }
 

@@ -143,9 +143,9 @@ TEST(AdaptiveRendered, TilesNeverExceedTheBudget) {
 TEST(AdaptiveRendered, EverySampleHasATexelAPixel) {
     const Scene& scene = test::built_in("contact");
     SceneGpu gpu = upload_scene(device(), scene);
-    const std::vector<float> m = undersampling(device(), gpu, scene.camera(""),
-                                               load_recipe("rmsm,resolution=2048,adaptive.levels=10,adaptive.density=1"),
-                                               {.width = 192, .height = 108});
+    const std::vector<float> m = undersampling(
+        device(), gpu, scene.camera(""), load_recipe("rmsm,resolution=2048,adaptive.levels=10,adaptive.density=1"),
+        {.width = 192, .height = 108});
     std::size_t counted = 0, coarse = 0, fine = 0;
     for (const float value : m) {
         counted += value >= 0 ? 1 : 0;
@@ -179,8 +179,8 @@ TEST(AdaptiveRendered, TilesHaveNoSeams) {
           {"pcf", 5},
           {"pcf,pcf.kernel=vogel,pcf.radius=3", 6}}) {
         const std::string all = recipe + ",placement=adaptive,adaptive.density=64,";
-        const auto many = visibility(fmt::format("{}resolution=512,adaptive.maps=1,adaptive.levels=2,adaptive.tile={}",
-                                                 all, 96 + 2 * border));
+        const auto many = visibility(
+            fmt::format("{}resolution=512,adaptive.maps=1,adaptive.levels=2,adaptive.tile={}", all, 96 + 2 * border));
         const auto one = visibility(fmt::format("{}resolution=512,adaptive.maps=1,adaptive.levels=0,adaptive.tile={}",
                                                 all, 4 * 96 + 2 * border));
         ASSERT_EQ(many.size(), one.size());
@@ -197,8 +197,8 @@ TEST(AdaptiveRendered, TilesHaveNoSeams) {
 /// What a grid's tile holds has one resolution throughout, and all of it.
 TEST(AdaptiveRendered, TilesOfAGridHaveOneResolutionEach) {
     constexpr int grid = 2, levels = 6;
-    const Tiles tiles = tiles_of(test::built_in("courtyard"),
-                                 fmt::format("tiled,adaptive.grid={},adaptive.levels={}", grid, levels));
+    const Tiles tiles =
+        tiles_of(test::built_in("courtyard"), fmt::format("tiled,adaptive.grid={},adaptive.levels={}", grid, levels));
     std::set<int> resolutions;
     for (int cell = 0; cell < 1 << (2 * grid); ++cell) {
         const ivec2 corner(cell & 3, cell >> 2);
@@ -248,7 +248,8 @@ Scene wire_over_floor() {
     sun.shape.color = vec4(1);
     scene.lights.push_back(sun);
     // A row of pixels looks at the middle of its shadow.
-    scene.cameras = {Camera{.position_ws = vec3(0, 4, 5.025F), .forward_ws = glm::normalize(vec3(0, -4, -5)), .yfov = 0.9F}};
+    scene.cameras = {
+        Camera{.position_ws = vec3(0, 4, 5.025F), .forward_ws = glm::normalize(vec3(0, -4, -5)), .yfov = 0.9F}};
     finish_scene(scene);
     return scene;
 }
@@ -260,7 +261,8 @@ TEST(AdaptiveRendered, RefinementMissesWhatTheFirstDoesNotChange) {
         const auto compared =
             test::compare(wire_over_floor(),
                           "hard,placement=adaptive,adaptive.tile=32,adaptive.density=8,adaptive.levels=6,"
-                          "adaptive.start=0,adaptive.mode=" + mode,
+                          "adaptive.start=0,adaptive.mode=" +
+                              mode,
                           {.width = 240, .height = 180, .samples = 1});
         EXPECT_GT(compared.errors.dark, 60U);
         return compared.errors.leak.value_or(1);
@@ -275,7 +277,8 @@ TEST(AdaptiveRendered, RefinementMissesWhatTheFirstDoesNotChange) {
 TEST(AdaptiveRendered, EdgesAloneTakeFewerTiles) {
     const Scene& scene = test::built_in("corridor");
     const std::string size = "hard,placement=adaptive,adaptive.density=2,resolution=2048,adaptive.mode=";
-    EXPECT_LT(tiles_of(scene, size + "asm").views.size(), 0.8 * static_cast<double>(tiles_of(scene, size + "rmsm").views.size()));
+    EXPECT_LT(tiles_of(scene, size + "asm").views.size(),
+              0.8 * static_cast<double>(tiles_of(scene, size + "rmsm").views.size()));
 }
 
 /// The traced hard shadow, but for what a texel's half explains: a wrong sample has samples of the other V within a pixel and a
@@ -289,7 +292,8 @@ TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
                                         {.width = width, .height = height, .samples = 1});
     const std::vector<float>& technique = compared.visibility().values;
     const std::vector<float>& reference = compared.truth.visibility;
-    const auto edges = edge_pixels(reference, compared.truth.counted, static_cast<int>(width), static_cast<int>(height));
+    const auto edges =
+        edge_pixels(reference, compared.truth.counted, static_cast<int>(width), static_cast<int>(height));
     const Truth truth(compared.scene);
     std::size_t wrong = 0, unexplained = 0;
     for (std::size_t i = 0; i < technique.size(); ++i) {

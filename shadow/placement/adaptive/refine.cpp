@@ -65,11 +65,12 @@ void add_look(const FrameInput& input, const Recipe& recipe, const LightViews& v
     }
     inputs.constant("int", "round", round).constant("int", "level", t.limit);
     inputs.constant("uint", "at_first", edges ? 1U : static_cast<std::uint32_t>(std::max(t.threshold + 1, 1)));
-    const auto shader = compute_once(input.prepared, "adaptive look", hashed(inputs).text(receiver_defines(recipe, views)), [&] {
-        return (edges ? "#define GN_REFINE_EDGES\n" : "") + receiver_defines(recipe, views) +
-               include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) + inputs.text() +
-               sample_functions(input, recipe, views) + look_text;
-    });
+    const auto shader =
+        compute_once(input.prepared, "adaptive look", hashed(inputs).text(receiver_defines(recipe, views)), [&] {
+            return (edges ? "#define GN_REFINE_EDGES\n" : "") + receiver_defines(recipe, views) +
+                   include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) + inputs.text() +
+                   sample_functions(input, recipe, views) + look_text;
+        });
     add_pixel_pass(input.graph, "adaptive look", inputs, shader, input.samples.width, input.samples.height);
 }
 

@@ -59,9 +59,9 @@ void add_requests(const Tree& tree, BufferHandle changed) {
     }
     inputs.constant("GnViewConstants", "view", tree.input.samples.constants);
     const uvec2 size = tree.constants.size;
-    add_pass(tree, {"adaptive requests", "requests",
-                    uvec2((size.x + 63) / 64, (size.y + GN_TREE_ROWS - 1) / GN_TREE_ROWS), inputs, true,
-                    changed.valid() ? "#define GN_TREE_REFINED\n" : ""});
+    add_pass(tree,
+             {"adaptive requests", "requests", uvec2((size.x + 63) / 64, (size.y + GN_TREE_ROWS - 1) / GN_TREE_ROWS),
+              inputs, true, changed.valid() ? "#define GN_TREE_REFINED\n" : ""});
 }
 
 /// What all demands in a node weigh, from the finest level up.
