@@ -39,7 +39,7 @@ void draw_panel(Viewer& viewer, vec2 window) {
 }
 
 void draw_scene_section(Viewer& viewer) {
-    if (!section("Scene", true)) {
+    if (!section("Scene", false)) {
         return;
     }
     std::vector<std::string> names;
@@ -122,7 +122,7 @@ void draw_look_section(Viewer& viewer) {
 }
 
 void draw_keep_section(Viewer& viewer) {
-    if (!section("Keep", true)) {
+    if (!section("Keep", false)) {
         return;
     }
     text_row("pictures.folder", "folder", viewer.pictures_field, "Where pictures go.");

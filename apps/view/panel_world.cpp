@@ -71,7 +71,7 @@ bool size_row(GnLight& light, float scene_size) {
 
 void draw_light_section(Viewer& viewer) {
     World& world = viewer.world();
-    if (!section("Light", true) || world.scene.lights.empty()) {
+    if (!section("Light", false) || world.scene.lights.empty()) {
         return;
     }
     std::vector<std::string> names;
@@ -104,7 +104,7 @@ void draw_light_section(Viewer& viewer) {
 }
 
 void draw_camera_section(Viewer& viewer) {
-    if (!section("Camera", true)) {
+    if (!section("Camera", false)) {
         return;
     }
     const Scene& scene = viewer.world().scene;
@@ -151,7 +151,7 @@ void draw_camera_section(Viewer& viewer) {
 }
 
 void draw_cost_section(Viewer& viewer) {
-    if (!section("Costs", true)) {
+    if (!section("Costs", false)) {
         return;
     }
     const Viewport& viewport = viewer.viewport(viewer.selected);
