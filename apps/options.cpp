@@ -14,9 +14,46 @@
 #include <cmath>
 
 namespace gn {
-namespace {
 
+namespace {
 constexpr int max_side = 8192;
+}
+
+Size parse_size(const std::string& text) {
+    Size size{0, 0};
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool separated = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!separated || height.ec != std::errc{} || height.ptr != end || std::min(size.width, size.height) < 1 ||
+        std::max(size.width, size.height) > max_side) {
+        throw InputError(fmt::format("--size: '{}' is no size; it is written WIDTHxHEIGHT in pixels, 1x1 to {}x{}",
+                                     text, max_side, max_side));
+    }
+    return size;
+}
+
+GroundOption parse_ground(const std::string& text) {
+    if (text.empty() || text == "auto") {
+        return {};
+    }
+    double height = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), height);
+    const bool number = code == std::errc{} && end == text.data() + text.size() && std::abs(height) <= 1e9;
+    if (!number && text != "none") {
+        throw InputError(fmt::format("--ground: '{}' is no ground; valid are auto, none, or a height in metres", text));
+    }
+    return {false, number ? std::optional<double>(height) : std::nullopt};
+}
+
+UpAxis parse_up(const std::string& text) {
+    if (text != "y" && text != "z") {
+        throw InputError(fmt::format("--up: '{}' is no axis that points up; valid are y, z", text));
+    }
+    return text == "z" ? UpAxis::z : UpAxis::y;
+}
+
+namespace {
 
 constexpr const char* description =
     "Gnomon: every real-time shadow technique behind one interface, each measured against ray-traced truth.";
@@ -31,6 +68,7 @@ constexpr const char* examples = R"(Examples:
   gnomon bake pcf,placement=cascades -o baked      its shaders, for renderers that link no compiler
   gnomon sweep sambeek-quality --quick             a grid of runs, into a file that grows and resumes
   gnomon study prepare DIR --kind threshold        then: gnomon study serve DIR; studies with people, in a browser
+  gnomon view courtyard -r soft -r hard            see it live: a window, or --headless pictures
   gnomon doctor                                    what this machine's driver can do
 
 SCENE is a built-in scene ('gnomon list scenes'), with parameters as in tilted:angle=85, or a .glb, .gltf, .obj or
@@ -89,39 +127,16 @@ constexpr const char* study_examples = R"(Examples:
 survey: how realistic are shadows, in ranks of 1 to 9 where 9 is the best? threshold: how wide a filter hides the texels of a
 shadow map, by QUEST? Every answer is on the disk before it is acknowledged; sessions go on after a crash. docs/study.md.)";
 
-Size parse_size(const std::string& text) {
-    Size size{0, 0};
-    const char* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.width);
-    const bool separated = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
-    const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
-    if (!separated || height.ec != std::errc{} || height.ptr != end || std::min(size.width, size.height) < 1 ||
-        std::max(size.width, size.height) > max_side) {
-        throw InputError(fmt::format("--size: '{}' is no size; it is written WIDTHxHEIGHT in pixels, 1x1 to {}x{}",
-                                     text, max_side, max_side));
-    }
-    return size;
-}
+constexpr const char* view_examples = R"(Examples:
+  gnomon view courtyard                                          a window; every parameter is a slider
+  gnomon view courtyard -r hard -r pcf -r soft -r volumes        four viewports that look through one camera
+  gnomon view model.glb -r soft --against truth --error          beside the truth, which is traced while nothing moves
+  gnomon view courtyard --show map -r pcf,placement=cascades     what the recipe hides
+  gnomon view --session session.toml                             what was saved
+  gnomon view corridor --headless --frames 60 --record walk-%04d.png --play
 
-GroundOption parse_ground(const std::string& text) {
-    if (text.empty() || text == "auto") {
-        return {};
-    }
-    double height = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), height);
-    const bool number = code == std::errc{} && end == text.data() + text.size() && std::abs(height) <= 1e9;
-    if (!number && text != "none") {
-        throw InputError(fmt::format("--ground: '{}' is no ground; valid are auto, none, or a height in metres", text));
-    }
-    return {false, number ? std::optional<double>(height) : std::nullopt};
-}
-
-UpAxis parse_up(const std::string& text) {
-    if (text != "y" && text != "z") {
-        throw InputError(fmt::format("--up: '{}' is no axis that points up; valid are y, z", text));
-    }
-    return text == "z" ? UpAxis::z : UpAxis::y;
-}
+Left drag looks around, right drag orbits, the wheel goes forward; W A S D Q E fly; Ctrl and drag moves the light; Tab hides the
+panel; F12 keeps the window. docs/view.md has the rest.)";
 
 /// How a file is read, as typed.
 struct FileWords {
@@ -178,9 +193,10 @@ struct Parser {
     SweepOptions sweep;
     MergeOptions merge;
     StudyOptions study;
+    ViewOptions view;
     std::string reference;
-    std::string render_size, compare_size;
-    FileWords render_file, compare_file;
+    std::string render_size, compare_size, view_size, view_window;
+    FileWords render_file, compare_file, view_file;
     CLI::Option* path = nullptr;
     bool verbose = false, quiet = false;
 
@@ -196,6 +212,7 @@ struct Parser {
         add_bake();
         add_sweep();
         add_study();
+        add_view();
         app.add_subcommand("doctor", "What this machine's driver can do, and what that rules out");
         for (CLI::App* command : app.get_subcommands({})) {
             command->fallthrough();
@@ -270,6 +287,37 @@ struct Parser {
         command->add_option("--json", study.json, "analyse: write the results as JSON; - is standard output");
         command->add_option("-o,--output", study.output, "export: the file to write (default: standard output)");
         command->footer(study_examples);
+    }
+
+    void add_view() {
+        CLI::App* command = app.add_subcommand("view", "A window in which recipes, lights and cameras are moved live");
+        command->add_option("SCENE", view.scene, "Built-in name or file");
+        command->add_option("--session", view.session, "A file that the viewer saved, instead of all that follows");
+        const auto several = [&](const char* names, std::vector<std::string>& values, const char* help) {
+            command->add_option(names, values, help)->allow_extra_args(false);
+        };
+        several("-r,--recipe", view.recipes, "A viewport's recipe with overrides; once for each (default: soft)");
+        several("--view", view.views, "Name of the camera; once for all, or for each viewport (default: the first)");
+        several("--camera", view.cameras, "Where it stands instead: position=x/y/z,direction=x/y/z,...; likewise");
+        several("--show", view.shows, "A picture of what the recipe hides, or none; likewise");
+        several("--move-light", view.lights, "NAME,direction=x/y/z,intensity=...: a light that stands otherwise");
+        add_file_options(command, view.file, view_file);
+        command->add_flag("--own-cameras", view.own_cameras, "Every viewport has a camera of its own");
+        command->add_option("--against", view.against, "What stands right of the split: a recipe, or truth");
+        command->add_option("--split", view.split, "Share of the picture left of it (default: 0.5)")
+            ->check(CLI::Range(0.0, 1.0));
+        command->add_flag("--error", view.error, "The signed error left of the split");
+        command->add_option("--light", view.light, "The light that --error and --show are of (default: the first)");
+        command->add_option("--stops", view.stops, "Exposure beside the automatic one")->check(CLI::Range(-16.0, 16.0));
+        command->add_option("--window", view_window, "WIDTHxHEIGHT in pixels (default: 1280x720)");
+        command->add_option("--size", view_size, "Of each viewport's picture (default: as large as it is shown)");
+        command->add_flag("--no-panel", view.no_panel, "Viewports alone");
+        command->add_flag("--play", view.plays, "Follow the scene's camera path");
+        command->add_flag("--headless", view.headless, "No window; with --frames");
+        command->add_option("--frames", view.frames, "Frames to draw")->check(CLI::Range(1, 1 << 20));
+        command->add_option("--record", view.record, "Keep what the window would show: a name with %04d, as .png");
+        command->add_flag("--validate", view.validate, "Validation layers on; a message ends with exit status 1");
+        command->footer(view_examples);
     }
 
     void add_render() {
@@ -425,6 +473,12 @@ std::optional<Command> parse_command_line(int argc, char** argv) {
         parse_file(parser.render_file, parser.render.file);
         parser.render.size = parser.render_size.empty() ? Size{} : parse_size(parser.render_size);
         return parser.render;
+    }
+    if (name == "view") {
+        parse_file(parser.view_file, parser.view.file);
+        parser.view.window = parser.view_window.empty() ? parser.view.window : parse_size(parser.view_window);
+        parser.view.picture = parser.view_size.empty() ? std::nullopt : std::optional(parse_size(parser.view_size));
+        return parser.view;
     }
     if (name == "compare") {
         parse_file(parser.compare_file, parser.compare.file);

@@ -107,10 +107,30 @@ struct StudyOptions {
     bool quick = false;
 };
 
+struct ViewOptions {
+    std::string scene, session;  ///< one of them
+    std::vector<std::string> recipes, views, cameras, shows;
+    FileOptions file;
+    std::vector<std::string> lights;  ///< NAME,key=value,...
+    std::string against, light;       ///< "" where not asked for
+    float split = 0.5F, stops = 0;
+    bool own_cameras = false, error = false, no_panel = false, plays = false;
+    Size window{1280, 720};
+    std::optional<Size> picture;  ///< of every viewport
+    bool headless = false, validate = false;
+    int frames = 0;
+    std::string record;
+};
+
 struct DoctorOptions {};
 
 using Command = std::variant<ListOptions, ShowOptions, RenderOptions, CompareOptions, BakeOptions, SweepOptions,
-                             MergeOptions, StudyOptions, DoctorOptions>;
+                             MergeOptions, StudyOptions, ViewOptions, DoctorOptions>;
+
+/// Words of options that a session's file has too. Throw InputError.
+Size parse_size(const std::string& text);
+GroundOption parse_ground(const std::string& text);
+UpAxis parse_up(const std::string& text);
 
 /// What the command line asks for; nothing when it was answered already (--help, --version).
 /// Throws InputError with one sentence.
@@ -125,6 +145,7 @@ int run(const BakeOptions& options);
 int run(const SweepOptions& options);
 int run(const MergeOptions& options);
 int run(const StudyOptions& options);
+int run(const ViewOptions& options);
 int run(const DoctorOptions& options);
 
 }  // namespace gn

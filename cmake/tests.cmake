@@ -94,11 +94,17 @@ file(GLOB evaluation_tests CONFIGURE_DEPENDS apps/evaluation/*_test.cpp)
 gn_suite(evaluation_tests SOURCES ${evaluation_tests} LINK gn_evaluation TESTED sanitized)
 # The command is tested from outside, so that the suite of one build tests the commands of all (tools/run_tests).
 file(GLOB_RECURSE app_tests CONFIGURE_DEPENDS apps/*_test.cpp)
-list(REMOVE_ITEM app_tests ${evaluation_tests})
+file(GLOB view_tests CONFIGURE_DEPENDS apps/view/*_test.cpp)
+list(REMOVE_ITEM app_tests ${evaluation_tests} ${view_tests})
 gn_suite(app_tests SOURCES ${app_tests} LINK gn_images gn_evaluation PkgConfig::HTTPLIB TESTED optimised)
 add_dependencies(app_tests gnomon)
 add_dependencies(tested gnomon)
 target_compile_definitions(app_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>" GNOMON_SOURCE="${CMAKE_SOURCE_DIR}")
+# The viewer is tested from inside, by hands on its panel; once in a window, where there is a display server for tests.
+list(APPEND view_tests ${CMAKE_SOURCE_DIR}/apps/subprocess_test.cpp)
+gn_suite(view_tests SOURCES ${view_tests} LINK gn_command TESTED optimised)
+add_dependencies(view_tests gnomon)
+target_compile_definitions(view_tests PRIVATE GNOMON_EXECUTABLE="$<TARGET_FILE:gnomon>")
 file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/suites.txt CONTENT "${gn_suites}")
 
 add_test(NAME layout_tests COMMAND python3 ${CMAKE_SOURCE_DIR}/tests/layout_test.py)

@@ -6,6 +6,7 @@
 #include "gpu/instance.h"
 #include "gpu/memory_pool.h"
 #include "gpu/pipeline_cache.h"
+#include "gpu/presenting.h"
 #include "gpu/vk_names.h"
 
 #include <algorithm>
@@ -27,9 +28,11 @@ namespace {
 class VulkanDevice final : public Device {
   public:
     // Both begin with a device that is whole: where one fails halfway, the destructor takes back what it made.
-    explicit VulkanDevice(const DeviceOptions& options) : VulkanDevice() {
+    /// `surfaces`: extensions of the instance for windows; none: the device shows none.
+    explicit VulkanDevice(const DeviceOptions& options, std::span<const char* const> surfaces = {}) : VulkanDevice() {
         validates_ = options.validation;
-        instance_.emplace(options.validation, log_);
+        presents_ = !surfaces.empty();
+        instance_.emplace(options.validation, log_, surfaces);
         std::vector<Candidate> candidates = examine_all(instance_->vk());
         const char* variable = std::getenv("GNOMON_DEVICE");
         const std::string pick = options.pick.empty() && variable != nullptr ? variable : options.pick;
@@ -146,6 +149,13 @@ class VulkanDevice final : public Device {
         FeatureChain chain;
         std::vector<const char*> extensions;
         enable(candidate_, chain, extensions);
+        if (presents_) {
+            if (!candidate_.has_extension(VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
+                fail("the device '{}' shows no windows: it lacks {}", candidate_.info.name,
+                     VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+            }
+            extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+        }
         const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                       .pNext = &chain.core,
                                       .queueCreateInfoCount = 1,
@@ -175,7 +185,7 @@ class VulkanDevice final : public Device {
     }
 
     MessageLog log_;
-    bool validates_ = false;
+    bool validates_ = false, presents_ = false;
     std::optional<Instance> instance_;
     Candidate candidate_;
     VkInstance vk_instance_ = VK_NULL_HANDLE;
@@ -195,6 +205,11 @@ class VulkanDevice final : public Device {
 
 std::unique_ptr<Device> Device::create(const DeviceOptions& options) {
     return std::make_unique<VulkanDevice>(options);
+}
+
+std::unique_ptr<Device> create_presenting_device(const DeviceOptions& options,
+                                                 std::span<const char* const> instance_extensions) {
+    return std::make_unique<VulkanDevice>(options, instance_extensions);
 }
 
 std::unique_ptr<Device> Device::adopt(const AdoptedDevice& host, std::shared_ptr<ShaderCompiler> shaders) {

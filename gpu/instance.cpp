@@ -87,7 +87,7 @@ void keep_driver_cache(std::vector<std::string>& notes) {
 
 }  // namespace
 
-Instance::Instance(bool validation, MessageLog& log) {
+Instance::Instance(bool validation, MessageLog& log, std::span<const char* const> extensions) {
     keep_driver_cache(notes_);
     if (validation && !has_layer(validation_layer)) {
         fail("validation was asked for, but the layer {} is not installed", validation_layer);
@@ -105,14 +105,17 @@ Instance::Instance(bool validation, MessageLog& log) {
                                         .pApplicationName = "gnomon",
                                         .pEngineName = "gnomon",
                                         .apiVersion = VK_API_VERSION_1_3};
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> names(extensions.begin(), extensions.end());
+    if (labels_) {
+        names.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
     const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                     .pNext = validation ? &features : nullptr,
                                     .pApplicationInfo = &application,
                                     .enabledLayerCount = validation ? 1U : 0U,
                                     .ppEnabledLayerNames = &validation_layer,
-                                    .enabledExtensionCount = labels_ ? 1U : 0U,
-                                    .ppEnabledExtensionNames = &extension};
+                                    .enabledExtensionCount = static_cast<std::uint32_t>(names.size()),
+                                    .ppEnabledExtensionNames = names.data()};
     const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
     if (result != VK_SUCCESS) {
         fail("Vulkan cannot be used: {}; install a driver (mesa-vulkan-drivers has one for machines without a GPU)",

@@ -5,6 +5,7 @@
 #include "gpu/device.h"
 
 #include <mutex>
+#include <span>
 
 namespace gn {
 
@@ -16,8 +17,9 @@ struct MessageLog {
 
 class Instance {
   public:
-    /// Throws Error when there is no Vulkan loader or driver, or validation is asked for and not installed.
-    Instance(bool validation, MessageLog& log);
+    /// Throws Error when there is no Vulkan loader or driver, or validation is asked for and not installed. `extensions`: further
+    /// ones that must be there.
+    Instance(bool validation, MessageLog& log, std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;

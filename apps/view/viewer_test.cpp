@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// The viewer in hands: without a window, and once in one.
+#include "apps/view/viewer.h"
+
+#include "apps/subprocess_test.h"
+#include "apps/view/panel.h"
+#include "gpu/presenting.h"
+#include "shadow/shading/tonemap.h"
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+namespace gn {
+namespace {
+
+/// More frames where time is no matter.
+bool thorough() {
+    return std::getenv("GNOMON_THOROUGH") != nullptr;
+}
+
+Device& device() {
+    static const std::unique_ptr<Device> made = Device::create({.validation = true});
+    return *made;
+}
+
+ViewSetup setup_of(const std::string& scene, const std::vector<std::string>& recipes) {
+    ViewSetup setup;
+    setup.scene = scene;
+    for (const std::string& recipe : recipes) {
+        setup.viewports.push_back({.recipe = recipe, .view = "", .camera = "", .show = ""});
+    }
+    setup.picture = Size{160, 90};
+    setup.window = Size{720, 400};
+    return setup;
+}
+
+class ViewerTest : public testing::Test {
+  protected:
+    void SetUp() override { before_ = device().messages().size(); }
+    void TearDown() override {
+        for (std::size_t i = before_; i < device().messages().size(); ++i) {
+            ADD_FAILURE() << "validation: " << device().messages()[i];
+        }
+    }
+    static void draw(Viewer& viewer, int frames) {
+        for (int i = 0; i < frames; ++i) {
+            viewer.frame();
+        }
+    }
+    /// Frames until something holds, for at most some seconds.
+    static bool draw_until(Viewer& viewer, const std::function<bool()>& holds) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (!holds() && std::chrono::steady_clock::now() < end) {
+            viewer.frame();
+        }
+        return holds();
+    }
+    /// Presses the left button at a share of a widget's width, and lets go at another.
+    static void drag(Viewer& viewer, const char* key, float from, float to) {
+        const Place* place = place_of(key);
+        ASSERT_NE(place, nullptr) << key;
+        const Place at = *place;
+        ImGuiIO& io = ImGui::GetIO();
+        const auto move = [&](float share, bool down) {
+            io.MousePos = {glm::mix(at.low.x, at.high.x, share), 0.5F * (at.low.y + at.high.y)};
+            io.MouseDown[0] = down;
+            viewer.frame();
+        };
+        move(from, false);
+        move(from, true);
+        move(to, true);
+        move(to, false);
+    }
+    static void click(Viewer& viewer, const char* key) { drag(viewer, key, 0.5F, 0.5F); }
+
+    std::size_t before_ = 0;
+};
+
+long resident_kilobytes() {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    long kilobytes = 0;
+    while (status >> word) {
+        if (word == "VmRSS:") {
+            status >> kilobytes;
+        }
+    }
+    return kilobytes;
+}
+
+TEST_F(ViewerTest, DrawsTheCourtyardInFourViewportsAndThenCreatesNothing) {
+    ViewSetup setup =
+        setup_of("courtyard", {"hard,resolution=256", "pcf,resolution=256", "vsm,resolution=256", "none"});
+    Viewer viewer(device(), setup, nullptr);
+    // The camera flies, as it does under a hand; maps of a view that stands still are kept, and have a plan of their own.
+    Camera camera = viewer.viewport(0).camera;
+    const auto fly = [&] {
+        camera.position_ws.x += 0.01F;
+        viewer.set_camera(0, camera, false);
+        viewer.frame();
+    };
+    for (int i = 0; i < 6; ++i) {
+        fly();
+    }
+    const Counters steady = device().counters();
+    const int frames = thorough() ? 200 : 12;
+    for (int i = 0; i < frames; ++i) {
+        fly();
+        ASSERT_EQ(device().counters(), steady) << "frame " << viewer.frames_drawn();
+    }
+    for (std::size_t i = 0; i < viewer.viewports(); ++i) {
+        EXPECT_EQ(viewer.viewport(i).camera.position_ws, camera.position_ws);
+        EXPECT_EQ(viewer.viewport(i).trouble, "");
+        EXPECT_FALSE(viewer.viewport(i).costs().resources.empty());
+    }
+}
+
+TEST_F(ViewerTest, TwoThousandFramesTakeNoMemory) {
+    if (!thorough()) {
+        GTEST_SKIP() << "make measure draws 2,000 frames";
+    }
+    Viewer viewer(device(), setup_of("slab", {"pcf,resolution=256", "evsm2,resolution=256"}), nullptr);
+    draw(viewer, 100);
+    const long before = resident_kilobytes();
+    draw(viewer, 2000);
+    // Pages that the allocators keep for themselves come and go; a frame that left a hundred bytes behind would show.
+    EXPECT_LT(resident_kilobytes() - before, 1024) << "kilobytes after 2,000 frames";
+}
+
+TEST_F(ViewerTest, TakesThePicturesThatRenderWrites) {
+    const ScratchFolder folder;
+    Viewer viewer(device(), setup_of("slab", {"pcf,resolution=256", "hard,resolution=128"}), nullptr);
+    draw(viewer, 3);
+    viewer.take_pictures(folder / "shots", "slab");
+    viewer.frame();
+    viewer.finish();
+    for (const auto& [recipe, file] : {std::pair{"pcf,resolution=256", "slab-pcf-resolution-256.png"},
+                                       {"hard,resolution=128", "slab-hard-resolution-128.png"}}) {
+        const CommandResult rendered = run_gnomon(
+            {"render", "slab", "-r", recipe, "--antialias", "1", "--size", "160x90", "-o", folder / "rendered.png"});
+        ASSERT_EQ(rendered.status, 0) << rendered.err;
+        EXPECT_EQ(file_text(folder / ("shots/" + std::string(file))), file_text(folder / "rendered.png")) << file;
+    }
+}
+
+TEST_F(ViewerTest, SlidersChangeTheRecipe) {
+    ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
+    setup.window = Size{1000, 1500};  // all of the panel is in sight
+    Viewer viewer(device(), setup, nullptr);
+    draw(viewer, 3);
+    const std::string before = viewer.viewport(0).recipe.text().text();
+    drag(viewer, "pcf.size", 0.1F, 0.6F);
+    const std::string after = viewer.viewport(0).recipe.text().text();
+    EXPECT_NE(after, before);
+    EXPECT_NE(after.find("pcf.size="), std::string::npos) << after;
+    EXPECT_TRUE(draw_until(viewer, [&] { return !viewer.viewport(0).recipe.awaits(); }));
+    EXPECT_EQ(value_of(viewer.viewport(0).recipe.now()->recipe(), "pcf.size"),
+              value_of(viewer.viewport(0).recipe.asked(), "pcf.size"));
+}
+
+TEST_F(ViewerTest, RecipesChangeWhileFramesGoOn) {
+    Viewer viewer(device(), setup_of("slab", {"hard,resolution=256"}), nullptr);
+    draw(viewer, 3);
+    viewer.set_recipe(0, "evsm2,resolution=128");
+    EXPECT_TRUE(draw_until(viewer, [&] { return !viewer.viewport(0).recipe.awaits(); }));
+    EXPECT_EQ(viewer.viewport(0).recipe.now()->recipe().name, "evsm2");
+    viewer.set_recipe(0, "pfc");
+    EXPECT_NE(viewer.message.find("pcf"), std::string::npos) << viewer.message;
+    EXPECT_EQ(viewer.viewport(0).recipe.text().text(), "evsm2,resolution=128");
+    draw(viewer, 2);
+}
+
+TEST_F(ViewerTest, LoadsAnotherSceneSavesAndComesBack) {
+    const ScratchFolder folder;
+    Viewer viewer(device(), setup_of("slab", {"pcf,resolution=256", "hard,resolution=256"}), nullptr);
+    draw(viewer, 2);
+    Camera camera = viewer.viewport(0).camera;
+    camera.position_ws.y += 0.5F;
+    viewer.set_camera(0, camera, false);
+    viewer.world().move_light(viewer.world().scene.lights.front().name + ",intensity=7");
+    viewer.stops = 1;
+    const std::string saved = toml_of(viewer.setup());
+    viewer.save_session(folder / "session.toml");
+
+    viewer.load("contact", {});
+    EXPECT_EQ(viewer.world().scene.name, "contact") << viewer.message;
+    draw(viewer, 2);
+    viewer.load("no-such-scene", {});
+    EXPECT_EQ(viewer.world().scene.name, "contact");
+    EXPECT_NE(viewer.message.find("no-such-scene"), std::string::npos) << viewer.message;
+
+    viewer.load_session(folder / "session.toml");
+    draw(viewer, 2);
+    EXPECT_EQ(toml_of(viewer.setup()), saved) << viewer.message;
+}
+
+TEST_F(ViewerTest, RefinesTheTruthWhileNothingMoves) {
+    ViewSetup setup = setup_of("slab", {"hard,resolution=256"});
+    setup.picture = Size{64, 48};
+    setup.against = Against::truth;
+    setup.error = true;
+    Viewer viewer(device(), setup, nullptr);
+    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.truth() != nullptr && viewer.truth()->samples >= 64; }));
+    draw(viewer, 2);
+    // A camera that moves leaves it behind.
+    Camera camera = viewer.viewport(0).camera;
+    camera.position_ws.x += 0.1F;
+    viewer.set_camera(0, camera, false);
+    viewer.frame();
+    EXPECT_EQ(viewer.truth(), nullptr);
+    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.truth() != nullptr; }));
+}
+
+TEST_F(ViewerTest, ShowsWhatARecipeHides) {
+    ViewSetup setup = setup_of("slab", {"pcf,resolution=128", "volumes"});
+    setup.viewports[0].show = "map";
+    setup.viewports[1].show = "map";
+    Viewer viewer(device(), setup, nullptr);
+    draw(viewer, 2);
+    EXPECT_NE(viewer.viewport(0).legend, "");
+    EXPECT_NE(viewer.viewport(1).legend.find("no shadow map"), std::string::npos) << viewer.viewport(1).legend;
+    viewer.viewport(0).show.clear();
+    draw(viewer, 3);
+    EXPECT_EQ(viewer.viewport(0).shown().desc().width, 160U);
+}
+
+/// A display server of its own, as long as a test.
+class DisplayServer {
+  public:
+    DisplayServer() {
+        std::array<int, 2> ends{};
+        if (pipe(ends.data()) != 0) {
+            return;
+        }
+        pid_ = fork();
+        if (pid_ == 0) {
+            close(ends[0]);
+            const std::string number = std::to_string(ends[1]);
+            execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24", "-nolisten", "tcp",
+                   "-terminate", nullptr);
+            _exit(127);
+        }
+        close(ends[1]);
+        std::array<char, 16> text{};
+        const ssize_t count = read(ends[0], text.data(), text.size() - 1);
+        close(ends[0]);
+        if (count > 0) {
+            setenv("DISPLAY", (":" + std::to_string(std::atoi(text.data()))).c_str(), 1);
+            runs_ = true;
+        }
+    }
+    ~DisplayServer() {
+        unsetenv("DISPLAY");
+        if (pid_ > 0) {
+            kill(pid_, SIGTERM);
+            waitpid(pid_, nullptr, 0);
+        }
+    }
+    DisplayServer(const DisplayServer&) = delete;
+    DisplayServer& operator=(const DisplayServer&) = delete;
+    [[nodiscard]] bool runs() const { return runs_; }
+
+  private:
+    pid_t pid_ = -1;
+    bool runs_ = false;
+};
+
+TEST(ViewerWindow, OpensDrawsResizesAndCloses) {
+    const DisplayServer display;
+    if (!display.runs()) {
+        GTEST_SKIP() << "no Xvfb on this machine: no window was opened";
+    }
+    ViewSetup setup = setup_of("slab", {"hard,resolution=256"});
+    setup.window = Size{480, 270};
+    Window window(setup.window);
+    const std::unique_ptr<Device> presenting =
+        create_presenting_device({.validation = true}, window.instance_extensions());
+    window.attach(*presenting);
+    {
+        Viewer viewer(*presenting, setup, &window);
+        for (int i = 0; i < 6 && window.poll(); ++i) {
+            viewer.frame();
+        }
+        glfwSetWindowSize(window.glfw(), 400, 300);
+        for (int i = 0; i < 6 && window.poll(); ++i) {
+            viewer.frame();
+        }
+        EXPECT_EQ(window.size(), uvec2(400, 300));
+        EXPECT_GE(viewer.frames_drawn(), 10U);
+        window.close();
+        EXPECT_FALSE(window.poll());
+        viewer.finish();
+    }
+    window.detach();
+    for (const std::string& message : presenting->messages()) {
+        ADD_FAILURE() << "validation: " << message;
+    }
+}
+
+TEST(ViewCommand, SaysInASentenceWhatIsWrong) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    const auto expect = [](const std::vector<std::string>& words, int status, const char* part) {
+        const CommandResult result = run_gnomon(words);
+        EXPECT_EQ(result.status, status) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    };
+    expect({"view", "slab"}, 1, "--headless");
+    expect({"view"}, 2, "--session");
+    expect({"view", "slab", "--headless"}, 2, "--frames");
+    expect({"view", "slab", "--headless", "--frames", "1", "--record", "out.png"}, 2, "%04d");
+    expect({"view", "slab", "-r", "pfc"}, 2, "pcf");
+    expect({"view", "slab", "--show", "nothing-such"}, 2, "texels");
+    expect({"view", "no-such-scene", "--headless", "--frames", "1"}, 2, "no-such-scene");
+}
+
+TEST(ViewCommand, RecordsFramesWithoutAWindow) {
+    const ScratchFolder folder;
+    const CommandResult result =
+        run_gnomon({"view", "slab", "-r", "pcf,resolution=128", "-r", "hard,resolution=128", "--headless", "--frames",
+                    "3", "--window", "640x360", "--validate", "--record", folder / "view-%04d.png"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(file_text(folder / "view-0002.png"), "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "view-0003.png"));
+}
+
+}  // namespace
+}  // namespace gn
