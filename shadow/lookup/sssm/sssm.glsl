@@ -20,6 +20,12 @@ GN_FN float gn_sssm_point(int i, int n, float noise, int jitter) {
     return 2.0f * (float(i) + within) / float(n) - 1.0f;
 }
 
+// How far across its row point i of a row alone lies, as a share of what the light has across it there: by the golden ratio, so
+// that the points of a row lie evenly on the square that they then are on. Only what lengthens the kernel is shared out so.
+GN_FN float gn_sssm_across(int i, float noise, int jitter) {
+    return 2.0f * fract(0.61803399f * float(i) + (jitter != 0 ? fract(7.0f * noise + 0.5f) : 0.5f)) - 1.0f;
+}
+
 // What a point of an axis weighs: as much of the light as lies across it.
 GN_FN float gn_sssm_weight(bool square, float x) { return square ? 1.0f : sqrt(max(1.0f - x * x, 0.0f)); }
 
@@ -81,7 +87,8 @@ void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float r
     }
 }
 
-// The row y of the kernel that the light's points make through a plane at `spread`.
+// The row y of the kernel that the light's points make through a plane at `spread`. A row that stands for the grid is as broad as
+// `least` makes the kernel beyond the light's points, which the rows of neighbours have.
 void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread, float y,
                  GnSssmParams params, inout GnSssmSum sum) {
     GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
@@ -91,6 +98,9 @@ void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPc
     for (int i = 0; i < params.side; ++i) {
         float x = gn_sssm_point(i, params.side, noise, params.jitter);
         vec2 tap_ts = gn_pcss_tap_ts(at, kernel, widen, vec2(x, y));
+#ifndef GN_SSSM_GRID
+        tap_ts += gn_sssm_across(i, noise, params.jitter) * gn_sssm_weight(half_light.square, x) * widen.up_ts;
+#endif
         gn_sssm_add(at, depth, metres, receiver, tap_ts, weight * gn_sssm_weight(half_light.square, x), sum);
     }
 }

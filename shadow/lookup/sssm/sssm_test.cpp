@@ -86,6 +86,26 @@ TEST(SssmRendered, RowsOfNeighboursAreTheGridsOnEdgesAlongTheAxes) {
     }
 }
 
+/// A kernel that `least` makes of a light without extent is as broad across its rows as along them: 9 points that lie evenly on a
+/// square err on an edge along its sides by two of them at most.
+TEST(SssmRendered, NarrowKernelsSpreadBothWays) {
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    for (const bool turned : {false, true}) {
+        Scene scene = under_the_sheet(turned, 0.9F);
+        scene.lights.front().shape.half_size = vec2(0.001F);
+        const std::string recipe = "sssm,resolution=32,sssm.jitter=false";
+        const auto rows = test::compare(scene, recipe, size);
+        const auto grid = test::compare(scene, recipe + ",sssm.separable=false", size);
+        int penumbra = 0;
+        for (std::size_t i = 0; i < grid.truth.counted.size(); ++i) {
+            const float v = grid.visibility().values[i];
+            penumbra += v > 0 && v < 1 ? 1 : 0;
+            ASSERT_NEAR(rows.visibility().values[i], v, 2.0F / 9 + 1e-6F) << "turned " << turned;
+        }
+        EXPECT_GT(penumbra, 300);
+    }
+}
+
 /// A picture too narrow for any neighbour: eight rows would lie beside the receiver, and its own must do.
 TEST(SssmRendered, WhereNoNeighbourIsSeenARowMustDo) {
     const test::ComparisonOptions size{.width = 96, .height = 4, .samples = 1};
