@@ -57,5 +57,6 @@ void filters(Bench& bench);
 void inlined(Bench& bench);
 void recording(Bench& bench);
 void soft(Bench& bench);
+void geometry(Bench& bench);
 
 }  // namespace gn::performance

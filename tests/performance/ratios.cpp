@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What shadows cost over the least that any method must pay, as ratios of one run: `make bench` prints the tables of
 // docs/performance.md. Nothing here is asserted. Names of groups (lookups, placements, filters, inline,
-// recording, soft) select some.
+// recording, soft, geometry) select some.
 #include "tests/performance/bench.h"
 
 #include <array>
@@ -9,12 +9,13 @@
 
 int main(int count, char** names) try {
     using namespace gn::performance;
-    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 6> groups{{{"lookups", lookups},
+    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 7> groups{{{"lookups", lookups},
                                                                                    {"placements", placements},
                                                                                    {"filters", filters},
                                                                                    {"inline", inlined},
                                                                                    {"recording", recording},
-                                                                                   {"soft", soft}}};
+                                                                                   {"soft", soft},
+                                                                                   {"geometry", geometry}}};
     Bench bench;
     bench.print_head();
     for (const auto& [name, run] : groups) {

@@ -19,11 +19,17 @@ void main() {
     GN_V v = GN_V(0.0);
     int most = 0;
     if (at.w > 0.5 && gn_counted(u.whole, p_ws, n_ws)) {
-        // Find the constant by the volumes of the references that hold the sample.
+        GnSeenLight seen = gn_seen_light(u.light, p_ws);
+        vec3 x_ws = seen.x_ws / dot(seen.x_ws, seen.x_ws);
+        vec3 y_ws = seen.y_ws / dot(seen.y_ws, seen.y_ws);
+
+        // Find the constant by the volumes of the references that hold the sample. Below its surface's horizon, where its own edges
+        // end, counters are no numbers of surfaces.
         uint word = uint(pixel.y * imageSize(visibility).x + pixel.x) * u.words;
         int least = 1 << 30;
         for (uint i = 0u; i < u.samples; ++i) {
-            least = min(least, counter_of(word, i));
+            bool above = dot(n_ws, seen.centre_ws + x_ws * points[i].x + y_ws * points[i].y) > 0.0;
+            least = above ? min(least, counter_of(word, i)) : least;
         }
         ivec3 votes = GN_DEPTH_VOTES;
         // Near the horizon of the sample's surface, whose own edges end there, rounding decides: the highest reference speaks for
@@ -34,12 +40,11 @@ void main() {
         int best = heights.x == highest ? votes.x : heights.y == highest ? votes.y : votes.z;
         votes = ivec3(heights.x > 0.25 * highest ? votes.x : best, heights.y > 0.25 * highest ? votes.y : best,
                       heights.z > 0.25 * highest ? votes.z : best);
-        int constant = gn_depth_constant(votes, least);
+        // What three places agree in holds, whatever rounding made of a single point's counter.
+        bool agreed = u.reference0_ws != u.reference1_ws && votes.x == votes.y && votes.y == votes.z;
+        int constant = agreed ? votes.x : gn_depth_constant(votes, least);
 
         // The points with nothing before them, above the surface, are seen, and weigh what they send.
-        GnSeenLight seen = gn_seen_light(u.light, p_ws);
-        vec3 x_ws = seen.x_ws / dot(seen.x_ws, seen.x_ws);
-        vec3 y_ws = seen.y_ws / dot(seen.y_ws, seen.y_ws);
         bool sun = u.light.kind == uint(GN_LIGHT_DIRECTIONAL);
         GN_V lit = GN_V(0.0);
         GN_V sends = GN_V(0.0);
@@ -48,7 +53,7 @@ void main() {
             most = max(most, count);
             vec3 to_point_ws = seen.centre_ws + x_ws * points[i].x + y_ws * points[i].y;
             vec4 point_ws = sun ? vec4(to_point_ws, 0.0) : vec4(p_ws + to_point_ws, 1.0);
-            bool seen_point = count == 0 && dot(n_ws, to_point_ws) > 0.0;
+            bool seen_point = count <= 0 && dot(n_ws, to_point_ws) > 0.0;
             sends += GN_SENT(i);
             lit += seen_point && !GN_DEPTH_MASKED(point_ws) ? GN_V(GN_SENT(i)) : GN_V(0.0);
         }

@@ -147,11 +147,14 @@ bool surely_revealed(const CpuSamples& before, const Camera& camera, vec3 p_ws) 
 /// A sample that comes into view is what a frame alone says of it, to the bit; others know more than that frame.
 TEST(TemporalRendered, ADisoccludedSampleIsHardToTheBit) {
     const test::ValidationGuard guard;
-    const Scene scene = by_hand::box_on_ground();
+    // The shadow falls behind the box, which hides it with its lit faces: what is revealed is dark.
+    Scene scene = by_hand::box_on_ground();
+    scene.lights.front().shape.direction_ws = vec4(glm::normalize(vec3(0.2F, -1, -1.2F)), 0);
     SceneGpu gpu = upload_scene(test::device(), scene);
     Sequence gathered(gpu, "temporal,resolution=64");
     Sequence alone(gpu, "hard,placement=jittered,resolution=64");
     Camera camera = scene.cameras.front();
+    int dark = 0;
     CpuSamples before;
     Camera camera_before;
     int revealed = 0;
@@ -166,6 +169,7 @@ TEST(TemporalRendered, ADisoccludedSampleIsHardToTheBit) {
             if (p_ws.w > 0 && surely_revealed(before, camera_before, vec3(p_ws))) {
                 ASSERT_EQ(all.visibility[0].values[i], v) << "frame " << k << " sample " << i;
                 ++revealed;
+                dark += v < 0.5F ? 1 : 0;
             }
             known += all.visibility[0].values[i] != v ? 1 : 0;
         }
@@ -173,6 +177,7 @@ TEST(TemporalRendered, ADisoccludedSampleIsHardToTheBit) {
         camera_before = camera;
     }
     EXPECT_GT(revealed, 100);
+    EXPECT_GT(dark, 10);
     EXPECT_GT(known, 100);
 }
 
