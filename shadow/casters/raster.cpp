@@ -2,6 +2,7 @@
 #include "shadow/casters/raster.h"
 
 #include "shadow/casters/caster_pipeline.h"
+#include "shadow/casters/pages.h"
 #include "shadow/casters/tiles.h"
 #include "shadow/geometry/draw.h"
 #include "shadow/receiver/sample_pass.h"
@@ -273,6 +274,10 @@ void add_caster_passes(const FrameInput& input, const Recipe& recipe, const Ligh
             add_drawn_passes(input, recipe, views, pass);
             return;
         }
+    }
+    if (are_pages(views)) {
+        add_page_passes(input, recipe, views, pass);
+        return;
     }
     if (!input.translucent && can_keep(input, views, pass)) {
         add_kept_passes(input, recipe, views, pass);

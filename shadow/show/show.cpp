@@ -41,6 +41,10 @@ void main() {
             sizes = mix(sizes, sizes_in(receiver, choice.second), choice.weight);
         }
         shown = vec4(choice.first, choice.second, choice.second >= 0 ? choice.weight : 0.0, sizes.w);
+#ifdef GN_PAGE_LEVEL
+        // Pages say how fine they are: where in the pool they lie says nothing.
+        shown.x = float(GN_PAGE_LEVEL(views[choice.first]));
+#endif
     }
     imageStore(first, pixel, shown);
     imageStore(second, pixel, sizes);

@@ -155,6 +155,14 @@ TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     expect_ramp("half-plane", "pcss,pcss.noise=surface", 512, {.width = 128, .height = 96, .samples = 256}, noise);
 }
 
+/// Whether a placement serves the scene's first light with the recipe.
+bool serves(const Part& placement, const std::string& scene_name, const std::string& recipe) {
+    const Scene scene = load_scene(scene_name);
+    return placement.stage == Stage::placement && placement.lights.has(scene.lights.front().shape.kind) &&
+           (placement.refuses == nullptr ||
+            placement.refuses(scene, scene.lights.front(), load_recipe(recipe)).empty());
+}
+
 /// The light's points are found where a view puts them, whatever it does to the map: every placement of every kind of light.
 TEST(PcssRendered, RampsAreAsWideUnderEveryPlacement) {
     // That, and what 64 points of the truth err by themselves, half of the root of V (1 - V) / 64.
@@ -167,7 +175,8 @@ TEST(PcssRendered, RampsAreAsWideUnderEveryPlacement) {
                             Row{"point", GN_LIGHT_POINT}, Row{"directional", GN_LIGHT_DIRECTIONAL}}) {
         std::vector<std::string> placements;
         for (const Part* part : all_parts()) {
-            if (part->stage == Stage::placement && part->lights.has(kind.number)) {
+            if (part->stage == Stage::placement && serves(*part, fmt::format("half-plane:light={}", kind.kind),
+                                                          fmt::format("pcss,placement={}", part->id))) {
                 placements.push_back(std::string(part->id));
             }
         }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The passes that find, allocate and describe pages, all on the GPU.
+#pragma once
+
+#include "shadow/placement/virtual/virtual.h"
+#include "shadow/placement/virtual/virtual_grid.h"
+
+namespace gn::virtual_pages {
+
+/// What the passes are told.
+struct PageJob {
+    GnVirtualParams params;
+    GnVirtualData data;
+    Grid grid;
+    std::vector<vec4> touched;  ///< touched_parts
+    bool fresh = true;          ///< no page holds anything
+    int page = 128;             ///< texels along a side, with its border
+    int border = 2;             ///< texels
+    int along = 1;              ///< pages along a side of the pool
+    float reach = 0;            ///< texels beyond a receiver whose pages are asked for, too
+    std::uint32_t frame = 1;
+    TextureHandle before, now;  ///< R32_UINT, a column a page: slot + 1 (0: none), tag, frame of the latest use
+    [[nodiscard]] int pages() const { return along * along; }
+    [[nodiscard]] int slots() const { return data.levels * data.faces * GN_VIRTUAL_SIDE * GN_VIRTUAL_SIDE; }
+};
+
+/// What they give: buffers.
+struct Pages {
+    BufferHandle views;  ///< GnLightView of every page of the pool
+    BufferHandle table;  ///< as gn_virtual_pages reads it
+    BufferHandle drawn;  ///< GnLightView of those that this frame draws
+    BufferHandle count;  ///< how many these are
+};
+
+/// Rows x, y and w of each face's clip space, as gn_virtual_rows reads them.
+std::vector<vec4> rows_of(const Grid& grid);
+
+Pages add_page_search(const FrameInput& input, const PageJob& job);
+
+}  // namespace gn::virtual_pages

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Pages are as fine as pixels, are drawn where something changed and nowhere else, and where one is missing a coarser one serves.
+#include "shadow/placement/virtual/virtual.glsl"
+
+#include "shadow/frame/history.h"
+#include "shadow/scene/move.h"
+#include "shadow/show/show.h"
+#include "tests/direct_scenes.h"
+#include "tests/rescaled.h"
+#include "tests/rig.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <set>
+
+namespace gn {
+namespace {
+
+constexpr uint width = 96, height = 64;
+
+TEST(Virtual, PagesHavePlacesOfTheirOwn) {
+    EXPECT_EQ(glsl::gn_virtual_page(glsl::gn_virtual_tag(ivec2(2047, 1031))), ivec2(2047, 1031));
+    EXPECT_NE(glsl::gn_virtual_tag(ivec2(0)), 0U);
+    std::set<int> slots;
+    for (int level = 0; level < 3; ++level) {
+        for (int face = 0; face < 6; ++face) {
+            for (const ivec2 page : {ivec2(0), ivec2(1, 0), ivec2(0, 1), ivec2(63, 63)}) {
+                const int slot = glsl::gn_virtual_slot(6, level, face, page);
+                EXPECT_TRUE(slots.insert(slot).second);
+                EXPECT_EQ(glsl::gn_virtual_level(6, slot), level);
+                EXPECT_EQ(glsl::gn_virtual_face(6, slot), face);
+                EXPECT_EQ(glsl::gn_virtual_slot(6, level, face, page + GN_VIRTUAL_SIDE), slot) << "windows wrap around";
+            }
+        }
+    }
+}
+
+/// The level asked for is the coarsest whose texels are no larger than a pixel in any direction.
+TEST(Virtual, ATexelIsAtMostAPixel) {
+    GnVirtualData data;
+    data.levels = 12;
+    data.stretch = 1000;
+    for (int i = 1; i < 200; ++i) {
+        const float size = std::pow(2.0F, -0.05F * static_cast<float>(i));
+        const float turn = 0.37F * static_cast<float>(i);
+        const vec2 right = size * vec2(std::cos(turn), std::sin(turn));
+        const vec2 down = 3 * size * vec2(-std::sin(turn + 0.4F), std::cos(turn + 0.4F));
+        const int level = glsl::gn_virtual_level_of(glsl::gn_virtual_wanted(right, down, data), 0, data.levels);
+        const auto scale = static_cast<float>(1 << level);
+        EXPECT_LE(glsl::gn_undersampling_of(scale * right, scale * down), 1.001F) << i;
+        if (level > 0) {
+            EXPECT_GT(glsl::gn_undersampling_of(0.5F * scale * right, 0.5F * scale * down), 1) << i;
+        }
+    }
+    // Where light grazes, a texel counts as so much longer than its mean side at most.
+    data.stretch = 4;
+    EXPECT_EQ(glsl::gn_virtual_wanted(vec2(1, 0), vec2(0, 1.0F / 65536), data), 10);
+    // Coarser by quarters: by a quarter some, by four all of them.
+    EXPECT_EQ(glsl::gn_virtual_level_of(4.2F, 0, 12), 5);
+    EXPECT_EQ(glsl::gn_virtual_level_of(4.2F, 1, 12), 4);
+    EXPECT_EQ(glsl::gn_virtual_level_of(4.9F, 1, 12), 5);
+    EXPECT_EQ(glsl::gn_virtual_level_of(4.9F, 4, 12), 4);
+}
+
+/// What a page shows of a face is what the face shows there, and the border beside it.
+TEST(Virtual, PagesArePartsOfTheirFace) {
+    GnLightView face;
+    face.cs_from_ws = glm::perspective(1.2F, 1.0F, 0.1F, 10.0F);
+    face.ws_from_cs = glm::inverse(face.cs_from_ws);
+    const ivec2 page(5, 2);
+    const GnLightView view = glsl::gn_virtual_view(face, 3, page, 128, 4);
+    for (const vec3 p_ws : {vec3(0.1F, -0.2F, -1), vec3(1, 0.5F, -4), vec3(-0.3F, 0.1F, -0.7F)}) {
+        const vec4 p_face = face.cs_from_ws * vec4(p_ws, 1);
+        const vec2 in_page = 8.0F * (0.5F * vec2(p_face) / p_face.w + 0.5F) - vec2(page);
+        const vec4 p_cs = view.cs_from_ws * vec4(p_ws, 1);
+        const vec2 p_ts = 0.5F * vec2(p_cs) / p_cs.w + 0.5F;
+        EXPECT_NEAR(p_ts.x * 128, 4 + in_page.x * 120, 2e-3);
+        EXPECT_NEAR(p_ts.y * 128, 4 + in_page.y * 120, 2e-3);
+        const vec4 back = view.ws_from_cs * p_cs;
+        EXPECT_NEAR(glm::distance(vec3(back) / back.w, p_ws), 0, 1e-4);
+    }
+}
+
+/// Frames of a recipe with a history of their own.
+struct Sequence {
+    SceneGpu& gpu;
+    History history{test::device()};
+    PreparedRecipe recipe;
+    Sequence(SceneGpu& scene, const std::string& text) : gpu(scene), recipe(test::device(), load_recipe(text)) {}
+    std::vector<float> draw(const Camera& camera) {
+        const FrameResult frame =
+            render_frame(gpu, camera, recipe,
+                         {.width = width, .height = height, .only_light = 0, .picture = false, .history = &history});
+        EXPECT_EQ(frame.refused.front(), "");
+        return frame.visibility.front().values;
+    }
+    std::vector<float> draw() { return draw(gpu.scene->cameras.front()); }
+    [[nodiscard]] std::uint32_t drawn() { return *history.answered("pages drawn of light 0"); }
+};
+
+/// A large box and a small one far from it, which stands where few pages look.
+Scene two_boxes(const GnLight& light) {
+    by_hand::SceneBuilder b;
+    b.ground(8).box({-3, 0.5F, -1}, {-1.5F, 2.5F, 1}).box({3, 0.5F, 2}, {3.5F, 1, 2.5F}).light(light);
+    Scene scene = b.scene();
+    scene.cameras = {{.position_ws = vec3(0, 9, 9), .forward_ws = glm::normalize(vec3(0, -1, -1))}};
+    return scene;
+}
+
+std::size_t differing(const std::vector<float>& a, const std::vector<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        count += a[i] != b[i] ? 1 : 0;
+    }
+    return count;
+}
+
+class PagesRendered : public testing::TestWithParam<const char*> {};
+
+/// A steady frame draws nothing; a caster that moves the pages that it touched and touches; and no frame shows anything old.
+TEST_P(PagesRendered, AreDrawnWhereACasterMovedAndNowhereElse) {
+    const test::ValidationGuard guard;
+    const std::string kind = GetParam();
+    Scene scene = two_boxes(kind == "sun"    ? by_hand::sun({0.3F, -1, 0.2F})
+                            : kind == "spot" ? by_hand::spot({0, 12, 1}, {0, 0, 0}, 0.7F)
+                                             : by_hand::point({0, 6, 1}));
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const char* const text = "virtual,lookup=hard,resolution=1024,virtual.page=64";
+    Sequence frames(gpu, text);
+    const std::vector<float> first = frames.draw();
+    const std::uint32_t all = frames.drawn();
+    EXPECT_GT(std::count(first.begin(), first.end(), 0.0F), 50);
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(frames.draw(), first);
+        EXPECT_EQ(frames.drawn(), 0U) << "frame " << k;
+    }
+    move_object(scene, 2, glm::translate(mat4(1), vec3(0.3F, 0, -0.4F)));
+    refresh_scene(test::device(), gpu);
+    const std::vector<float> moved = frames.draw();
+    EXPECT_GT(frames.drawn(), 0U);
+    EXPECT_LT(frames.drawn(), all / 2) << "of " << all;
+    EXPECT_EQ(frames.draw(), moved);
+    EXPECT_EQ(frames.drawn(), 0U);
+    // A sequence that begins now knows nothing of before. Its pages stand elsewhere in the pool, where positions round otherwise.
+    Sequence fresh(gpu, text);
+    EXPECT_LE(differing(fresh.draw(), moved), 3U);
+    EXPECT_GT(differing(first, moved), 3U);
+
+    // The light moves, and all is drawn anew.
+    scene.lights[0].shape.position_ws.x += 0.5F;
+    scene.lights[0].shape.direction_ws =
+        vec4(glm::normalize(vec3(scene.lights[0].shape.direction_ws) + vec3(0.1F, 0, 0)), 0);
+    static_cast<void>(frames.draw());
+    EXPECT_GT(frames.drawn(), all / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(VirtualRendered, PagesRendered, testing::Values("sun", "spot", "point"));
+
+/// A camera that jumps about, with one page a frame: what is not there yet is as dark as in the coarser page that serves, which is
+/// never lighter than what is deep in shadow.
+TEST(VirtualRendered, AMissingPageIsNeverLight) {
+    const test::ValidationGuard guard;
+    Scene scene = two_boxes(by_hand::sun({0.3F, -1, 0.2F}));
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    Sequence frames(gpu, "virtual,lookup=hard,resolution=1024,virtual.page=64,virtual.drawn=1");
+    Sequence coarse(gpu, "virtual,lookup=hard,resolution=1024,virtual.page=64,virtual.levels=1");
+    std::size_t deep = 0;
+    for (int k = 0; k < 5; ++k) {
+        Camera camera = scene.cameras.front();
+        camera.position_ws = vec3(-3.0F + 0.7F * static_cast<float>(k), 5.0F - static_cast<float>(k) * 0.5F, 4);
+        const std::vector<float> few = frames.draw(camera);
+        EXPECT_EQ(frames.drawn(), 1U);
+        const std::vector<float> least = coarse.draw(camera);
+        // Samples around which the coarsest page is dark all over are deep in shadow.
+        for (uint y = 3; y + 3 < height; ++y) {
+            for (uint x = 3; x + 3 < width; ++x) {
+                bool dark = true;
+                for (uint dy = y - 3; dy <= y + 3 && dark; dy += 3) {
+                    for (uint dx = x - 3; dx <= x + 3 && dark; dx += 3) {
+                        dark = least[dy * width + dx] == 0;
+                    }
+                }
+                if (dark) {
+                    ++deep;
+                    ASSERT_EQ(few[y * width + x], 0) << "frame " << k << " at " << x << ", " << y;
+                }
+            }
+        }
+    }
+    EXPECT_GT(deep, 20U);
+}
+
+/// Where the pool suffices no texel covers more than a pixel; where it does not, all are coarser and the budget holds.
+TEST(VirtualRendered, TexelsAreAtMostAPixelWhereThePoolSuffices) {
+    const test::ValidationGuard guard;
+    const Scene scene = two_boxes(by_hand::sun({0.3F, -1, 0.2F}));
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const auto share_above_one = [&](const char* recipe) {
+        const std::vector<float> m = undersampling(test::device(), gpu, scene.cameras.front(), load_recipe(recipe),
+                                                   {.width = width, .height = height});
+        const auto judged = std::count_if(m.begin(), m.end(), [](float of) { return of >= 0; });
+        const auto above = std::count_if(m.begin(), m.end(), [](float of) { return of > 1.01F; });
+        EXPECT_GT(judged, width * height / 2);
+        return static_cast<double>(above) / static_cast<double>(judged);
+    };
+    // Sides of boxes that the light grazes ask for no more than `stretch` gives.
+    EXPECT_LT(share_above_one("virtual,lookup=hard,resolution=2048,virtual.page=64"), 0.02);
+    EXPECT_GT(share_above_one("virtual,lookup=hard,resolution=64"), 0.9);
+}
+
+/// Receivers near the borders of pages, of faces and of what the light shines on are served: the traced shadow, to a texel.
+TEST(VirtualRendered, ServesEveryKindOfLight) {
+    for (const char* kind : {"directional", "spot", "point", "rectangle"}) {
+        const Scene scene = test::lit_scene(kind);
+        const auto c = test::compare(scene, "virtual,lookup=hard,resolution=1024,virtual.page=64",
+                                     {.width = width, .height = height, .samples = 1});
+        const auto fitted = test::compare(scene, "hard,placement=auto,resolution=1024",
+                                          {.width = width, .height = height, .samples = 1});
+        EXPECT_LE(*c.errors.mismatch, 1.2 * *fitted.errors.mismatch + 0.002) << kind;
+    }
+}
+
+}  // namespace
+}  // namespace gn
