@@ -37,16 +37,12 @@ GN_FN float gn_log_unstep(float worth, float rate) {
                           : -log(max(1.0f - x, 1.0e-30f)) / rate;
 }
 
-// Whether a point lies on the map's side of its first and of its last row: both are at least 0 between them.
-GN_FN vec2 gn_log_sides(vec3 p_cs, float rate) {
-    float last = rate > 0.0f ? exp(-rate) : -1.0f;
-    return vec2(p_cs.z - p_cs.y, p_cs.y - last * p_cs.z);
-}
+// Whether a point lies on the map's side of its first row and of its last, where y / w is `last`: both are at least 0 between them.
+GN_FN vec2 gn_log_sides(vec3 p_cs, float last) { return vec2(p_cs.z - p_cs.y, p_cs.y - last * p_cs.z); }
 
-// Grows a rectangle (min.xy, max.zw) by what of an edge lies between the first and the last row.
-GN_FN vec4 gn_log_edge(vec4 box, vec3 a, vec3 b, float rate) {
-    vec2 at_a = gn_log_sides(a, rate);
-    vec2 at_b = gn_log_sides(b, rate);
+// Grows a rectangle (min.xy, max.zw) of x / w and y / w by what of an edge lies between the first and the last row; `at_a` and
+// `at_b` are the sides of its ends.
+GN_FN vec4 gn_log_edge(vec4 box, vec3 a, vec3 b, vec2 at_a, vec2 at_b) {
     float first = 0.0f;
     float last = 1.0f;
     for (int i = 0; i < 2; ++i) {
@@ -62,28 +58,53 @@ GN_FN vec4 gn_log_edge(vec4 box, vec3 a, vec3 b, float rate) {
     }
     for (int i = 0; i < 2; ++i) {
         vec3 p_cs = a + (b - a) * (i == 0 ? first : last);
-        vec2 place = gn_log_place(vec3(p_cs.x, p_cs.y, max(p_cs.z, 1.0e-30f)), rate);
-        box = vec4(min(box.x, place.x), min(box.y, place.y), max(box.z, place.x), max(box.w, place.y));
+        vec2 p_ndc = vec2(p_cs.x, p_cs.y) / max(p_cs.z, 1.0e-30f);
+        box = vec4(min(box.x, p_ndc.x), min(box.y, p_ndc.y), max(box.z, p_ndc.x), max(box.w, p_ndc.y));
     }
     return box;
 }
 
+GN_FN float gn_log_least(vec3 v) { return min(v.x, min(v.y, v.z)); }
+
 // A rectangle of the map around the image of a triangle; empty (min > max) where there is none.
 GN_FN vec4 gn_log_bounds(vec3 a, vec3 b, vec3 c, float rate) {
-    // Before the light are points whose y is positive, or their w where rows are even.
-    vec3 before = rate > 0.0f ? vec3(a.y, b.y, c.y) : vec3(a.z, b.z, c.z);
-    if (max(before.x, max(before.y, before.z)) <= 0.0f) {
+    // Leave out what lies wholly behind the light or beyond one border. Before the light y is positive, or w where rows are even.
+    float last = rate > 0.0f ? exp(-rate) : -1.0f;
+    vec2 at_a = gn_log_sides(a, last);
+    vec2 at_b = gn_log_sides(b, last);
+    vec2 at_c = gn_log_sides(c, last);
+    vec3 x = vec3(a.x, b.x, c.x);
+    vec3 y = vec3(a.y, b.y, c.y);
+    vec3 w = vec3(a.z, b.z, c.z);
+    vec3 before = rate > 0.0f ? y : w;
+    vec2 most = max(at_a, max(at_b, at_c));
+    if (gn_log_least(-before) >= 0.0f || min(most.x, most.y) < 0.0f || gn_log_least(x - w) > 0.0f ||
+        gn_log_least(-x - w) > 0.0f) {
         return vec4(1.0f, 1.0f, -1.0f, -1.0f);
     }
-    if (min(before.x, min(before.y, before.z)) <= 0.0f) {
-        return vec4(-1.0f, -1.0f, 1.0f, 1.0f);  // it passes the light, and its image has no end
+
+    // Where y and w are both 0 rows meet: a triangle that holds this point has an image without end. These weights of its corners
+    // give the point, which it holds where none differs in sign.
+    vec3 meet = cross(y, w);
+    float room = 1.0e-5f * max(abs(meet.x), max(abs(meet.y), abs(meet.z)));
+    if (gn_log_least(before) <= 0.0f && max(gn_log_least(meet), gn_log_least(-meet)) >= -room) {
+        return vec4(-1.0f, -1.0f, 1.0f, 1.0f);
     }
+
+    // Bound what of its edges lies between the rows. Cuts are rounded by the length of their edge, what lies there whole by its
+    // last places.
     vec4 box = vec4(1.0e9f, 1.0e9f, -1.0e9f, -1.0e9f);
-    box = gn_log_edge(box, a, b, rate);
-    box = gn_log_edge(box, b, c, rate);
-    box = gn_log_edge(box, c, a, rate);
-    float slack = 2.0e-3f;
-    return vec4(max(box.x - slack, -1.0f), max(box.y - slack, -1.0f), min(box.z + slack, 1.0f), min(box.w + slack, 1.0f));
+    box = gn_log_edge(box, a, b, at_a, at_b);
+    box = gn_log_edge(box, b, c, at_b, at_c);
+    box = gn_log_edge(box, c, a, at_c, at_a);
+    if (box.x > box.z) {
+        return box;
+    }
+    vec2 ends = vec2(gn_log_place(vec3(0.0f, box.y, 1.0f), rate).y, gn_log_place(vec3(0.0f, box.w, 1.0f), rate).y);
+    vec2 least = min(at_a, min(at_b, at_c));
+    float slack = min(least.x, least.y) < 0.0f ? 2.0e-3f : 2.0e-4f;
+    return vec4(max(box.x - slack, -1.0f), max(min(ends.x, ends.y) - slack, -1.0f), min(box.z + slack, 1.0f),
+                min(max(ends.x, ends.y) + slack, 1.0f));
 }
 
 // Twice the triangle's volume with the centre of projection: above 0 where its corners turn from x to y, seen by the light.
