@@ -11,11 +11,26 @@ namespace {
 constexpr uint width = 480, height = 270;
 constexpr double long_ms = 3000;  ///< what takes longer is timed once
 
-constexpr std::array methods{
-    "hard,resolution=1024", "volumes",          "volumes,volumes.mode=z-fail",  "split-volumes",   "hybrid-volumes",
-    "irregular-z",          "planar",           "planar-soft",                  "plateaus",        "blob",
-    "projective-texture",   "soft-volumes",     "soft-volumes-split",           "wedges",          "single-sample",
-    "smoothies",            "penumbra-maps",    "soft-irregular",               "depth-complexity", "view-samples"};
+constexpr std::array methods{"hard,resolution=1024",
+                             "volumes",
+                             "volumes,volumes.mode=z-fail",
+                             "split-volumes",
+                             "hybrid-volumes",
+                             "irregular-z",
+                             "planar",
+                             "planar-soft",
+                             "plateaus",
+                             "blob",
+                             "projective-texture",
+                             "soft-volumes",
+                             "soft-volumes-split",
+                             "wedges",
+                             "single-sample",
+                             "smoothies",
+                             "penumbra-maps",
+                             "soft-irregular",
+                             "depth-complexity",
+                             "view-samples"};
 
 /// The least time of the passes of a light's shadow; the first run of each recipe makes what later ones keep.
 double shadow_ms(Bench& bench, const std::string& scene, const Recipe& recipe) {
@@ -38,7 +53,8 @@ double shadow_ms(Bench& bench, const std::string& scene, const Recipe& recipe) {
 
 void geometry(Bench& bench) {
     std::vector<std::array<double, methods.size()>> columns;
-    std::printf("\n| over `hard` at 1024 x 1024, over `volumes`; `grid` with objects x triangles, %u x %u |", width, height);
+    std::printf("\n| over `hard` at 1024 x 1024, over `volumes`; `grid` with objects x triangles, %u x %u |", width,
+                height);
     for (const int triangles : {100, 1600}) {
         for (const int objects : {1, 10, 50, 200}) {
             const std::string scene = fmt::format("grid:objects={},triangles={}", objects, triangles);
