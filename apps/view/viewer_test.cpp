@@ -236,6 +236,42 @@ TEST_F(ViewerTest, ShowsWhatARecipeHides) {
     EXPECT_EQ(viewer.viewport(0).shown().desc().width, 160U);
 }
 
+TEST_F(ViewerTest, TimesPassesWhereItIsAsked) {
+    ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
+    setup.window = Size{1000, 2600};
+    Viewer viewer(device(), setup, nullptr);
+    draw(viewer, 3);
+    for (const char* folded : {"Light", "Camera", "Costs", "Scene", "Keep"}) {
+        click(viewer, folded);
+    }
+    draw(viewer, 3);
+    EXPECT_GT(viewer.viewport(0).costs().transient_bytes, 0U);
+    if (!device().has(Feature::timestamps)) {
+        click(viewer, "measures");
+        EXPECT_TRUE(viewer.measures);
+    }
+    draw(viewer, 12);
+    double sum = 0;
+    for (const PassTime& pass : viewer.viewport(0).costs().passes) {
+        sum += pass.ms;
+    }
+    EXPECT_GT(sum, 0.0);
+    EXPECT_EQ(viewer.viewport(0).trouble, "");
+}
+
+TEST_F(ViewerTest, HoldsARecipeAgainstAnother) {
+    ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
+    setup.against = Against::recipe;
+    setup.other = "hard,resolution=128";
+    setup.error = true;
+    Viewer viewer(device(), setup, nullptr);
+    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.viewport(0).other.now() != nullptr; }));
+    draw(viewer, 6);
+    const Counters steady = device().counters();
+    draw(viewer, 6);
+    EXPECT_EQ(device().counters(), steady);
+}
+
 /// A display server of its own, as long as a test.
 class DisplayServer {
   public:

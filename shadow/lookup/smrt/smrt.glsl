@@ -196,8 +196,8 @@ bool gn_smrt_hidden(GnLookup at, sampler2DArray depth, GnSmrtFan fan, vec2 q, fl
 
 float gn_smrt_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSmrtParams params) {
     GnPcssLight half_light = gn_smrt_light(at.light, at.receiver.p_ws);
-    vec3 axis = gn_pcss_axis(at.light, at.receiver.p_ws);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, axis, params.least, true);
+    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, true);
     if (region.visibility == 1.0) {
         return 1.0;
     }
@@ -205,9 +205,10 @@ float gn_smrt_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     bool one = params.least == 0.0 && half_light.right_ws == vec3(0.0) && half_light.up_ws == vec3(0.0);
     int rays = one ? 1 : params.rays;
     float noise = gn_smrt_noise(at, params);
+    GnPcssPoints points = gn_pcss_points(half_light.square, rays, noise);
     float lit = 0.0;
     for (int i = 0; i < rays; ++i) {
-        vec2 q = gn_pcss_point(half_light.square, i, rays, noise);
+        vec2 q = gn_pcss_next(points);
         float jitter = 1.0 - fract(noise + 0.61803399 * float(i));
         lit += gn_smrt_hidden(at, depth, fan, q, jitter, params) ? 0.0 : 1.0;
     }
