@@ -14,10 +14,9 @@
 using glm::cross;
 #endif
 
-/// Which of Scene::textures a light shows, -1 for none: GnLight::unused0 holds one more, as what else is asked of a light's shape
-/// travels with it.
+/// Which of Scene::textures a light shows, -1 for none: GnLight::texture holds one more.
 GN_FN int gn_emission_texture(GnLight light) {
-    return int(light.unused0) - 1;
+    return int(light.texture) - 1;
 }
 
 /// Which lights may show one: those with a surface that has sides.
@@ -40,7 +39,7 @@ struct Scene;
 
 /// Lets a light show one of Scene::textures; -1: none.
 inline void set_emission(GnLight& light, int texture) {
-    light.unused0 = static_cast<float>(texture + 1);
+    light.texture = static_cast<float>(texture + 1);
 }
 /// The picture that a light shows, null where it shows none: one that the scene lacks, or of a light that takes none.
 const Image8* shown_picture(const Scene& scene, const GnLight& light);

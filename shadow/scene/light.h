@@ -29,9 +29,9 @@ struct GnLight {
     float cos_inner GN_DEFAULT(1.0f);                 ///< spot: full intensity inside
     float cos_outer GN_DEFAULT(0.0f);                 ///< spot: none outside
     float range GN_DEFAULT(0.0f);                     ///< metres; 0 means unlimited
+    float texture GN_DEFAULT(0.0f);                   ///< rectangle: of Scene::textures what it shows, plus 1; 0: none
     float unused0 GN_DEFAULT(0.0f);
     float unused1 GN_DEFAULT(0.0f);
-    float unused2 GN_DEFAULT(0.0f);
 };
 
 /// What an environment looks like, relative to its intensity: the light that surfaces get, and the sky that is seen.
