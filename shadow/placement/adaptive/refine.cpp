@@ -65,11 +65,13 @@ void add_look(const FrameInput& input, const Recipe& recipe, const LightViews& v
     }
     inputs.constant("int", "round", round).constant("int", "level", t.limit);
     inputs.constant("uint", "at_first", edges ? 1U : static_cast<std::uint32_t>(std::max(t.threshold + 1, 1)));
+    const std::string defines = receiver_defines(recipe, views);
+    // What is known of the light differs from light to light.
+    const std::string functions = sample_functions(input, recipe, views);
     const auto shader =
-        compute_once(input.prepared, "adaptive look", hashed(inputs).text(receiver_defines(recipe, views)), [&] {
-            return (edges ? "#define GN_REFINE_EDGES\n" : "") + receiver_defines(recipe, views) +
-                   include_line("shadow/view/view.glsl") + placement_text(*views.part, recipe) + inputs.text() +
-                   sample_functions(input, recipe, views) + look_text;
+        compute_once(input.prepared, "adaptive look", hashed(inputs).text(defines).text(functions), [&] {
+            return (edges ? "#define GN_REFINE_EDGES\n" : "") + defines + include_line("shadow/view/view.glsl") +
+                   placement_text(*views.part, recipe) + inputs.text() + functions + look_text;
         });
     add_pixel_pass(input.graph, "adaptive look", inputs, shader, input.samples.width, input.samples.height);
 }
