@@ -36,6 +36,8 @@ std::string with_few_points(const Recipe& recipe, const std::string& text) {
             few += fmt::format(",{}.lights=4", part->id);
         } else if (!thorough() && part->add_light != nullptr && part->params.find("levels") != nullptr) {
             few += fmt::format(",{}.levels=1", part->id);
+        } else if (!thorough() && part->place != nullptr && part->params.find("levels") != nullptr) {
+            few += fmt::format(",{}.levels=4", part->id);
         } else if (!thorough() && part->add_direct != nullptr && part->params.find("samples") != nullptr) {
             few += fmt::format(",{}.samples=4", part->id);
         }

@@ -28,8 +28,8 @@ const Scene& built_in(const std::string& name);
 /// Every shipped recipe; with sanitizers every fourth, since the sweep over parameters draws each of them there.
 std::vector<std::string> drawn_recipes();
 
-/// The recipe's text with four points of its light, which are a loop as well as sixty-four are; as it is where no light
-/// has points, or where a suite is thorough.
+/// The recipe's text with four points of its light, which are a loop as well as sixty-four are, and four levels of a
+/// placement that has some; as it is where there are none, or where a suite is thorough.
 std::string with_few_points(const Recipe& recipe, const std::string& text);
 
 /// One frame of a scene, first light unless told, and its truth.
