@@ -10,6 +10,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -284,8 +285,10 @@ class DisplayServer {
         if (pid_ == 0) {
             close(ends[0]);
             const std::string number = std::to_string(ends[1]);
+            // It ends with this process, and not with its last client: one that only looks for a display must not end it.
+            prctl(PR_SET_PDEATHSIG, SIGTERM);
             execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24", "-nolisten", "tcp",
-                   "-terminate", nullptr);
+                   nullptr);
             _exit(127);
         }
         close(ends[1]);

@@ -25,6 +25,15 @@ TextureDesc shown_desc(uint width, uint height) {
             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
 }
 
+}  // namespace
+
+bool is_made_as(const Texture2D& texture, TextureDesc desc) {
+    desc.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return texture.desc() == desc;
+}
+
+namespace {
+
 /// A picture of the hidden as a texture: display-ready values.
 Texture2D texture_of(Device& device, const Image& picture) {
     std::vector<std::uint8_t> texels(4 * picture.pixels(), 255);
@@ -212,7 +221,7 @@ void Viewport::answer(FrameGraph& graph, const ViewSamples& samples, TextureHand
 
 void Viewport::make_shown() {
     const TextureDesc desc = shown_desc(width, height);
-    if (shown_ == nullptr || (show.empty() && !(shown_->desc() == desc))) {
+    if (shown_ == nullptr || (show.empty() && !is_made_as(*shown_, desc))) {
         frames_.retire(std::exchange(shown_, std::make_shared<Texture2D>(device_, desc)));
     }
 }
