@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,7 +56,11 @@ void RunningCommand::signal(int number) const {
 }
 
 bool RunningCommand::finished() {
-    finished_ = finished_ || waitpid(pid_, &state_, WNOHANG) == pid_;
+    rusage usage{};
+    if (!finished_ && wait4(pid_, &state_, WNOHANG, &usage) == pid_) {
+        finished_ = true;
+        peak_kilobytes_ = usage.ru_maxrss;
+    }
     return finished_;
 }
 
@@ -72,7 +77,7 @@ CommandResult RunningCommand::wait(int seconds) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return {WIFEXITED(state_) ? WEXITSTATUS(state_) : 128 + WTERMSIG(state_), file_text(folder_ / "out"),
-            file_text(folder_ / "err")};
+            file_text(folder_ / "err"), peak_kilobytes_};
 }
 
 std::string gnomon_executable() {

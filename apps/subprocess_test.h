@@ -13,6 +13,7 @@ namespace gn {
 struct CommandResult {
     int status = -1;  ///< exit status, or 128 + signal
     std::string out, err;
+    long peak_kilobytes = 0;  ///< the most memory that it had resident
 };
 
 /// A folder of its own for a test, removed at the end.
@@ -44,6 +45,7 @@ class RunningCommand {
     ScratchFolder folder_;
     pid_t pid_ = -1;
     int state_ = 0;
+    long peak_kilobytes_ = 0;
     bool finished_ = false;
 };
 
