@@ -135,9 +135,11 @@ void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sam
 // All texels of the mip in which `side` of them span the kernel that the light's points make through a plane at `spread`.
 GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssLight half_light, GnPcssMetres metres, float spread,
                        GnChsParams params) {
-    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, params.least * at.projected.texel_ts);
-    vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread) + widen.right_ts;
-    vec2 up_ts = gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread) + widen.up_ts;
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
+    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, params.least * at.projected.texel_ts);
+    vec4 axes_ts = gn_pcss_axes(kernel);
+    vec2 right_ts = axes_ts.xy + widen.right_ts;
+    vec2 up_ts = axes_ts.zw + widen.up_ts;
     vec2 reach_ts = half_light.square ? abs(right_ts) + abs(up_ts) : sqrt(right_ts * right_ts + up_ts * up_ts);
     float determinant = right_ts.x * up_ts.y - right_ts.y * up_ts.x;
 
@@ -176,7 +178,7 @@ GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid
 
 float gn_chs_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnChsParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return region.visibility;

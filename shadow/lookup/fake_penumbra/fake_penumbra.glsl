@@ -111,7 +111,7 @@ GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, GnPcssMetres metre
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
     GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
     if (!gn_fake_spreads(at.light, params)) {
         return own.lit ? 1.0 : 0.0;
@@ -120,7 +120,7 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
-    vec2 widest_ts = gn_pcss_reach(at, half_light, region.spread);
+    vec2 widest_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
     float most = max(max(widest_ts.x, widest_ts.y) / at.projected.texel_ts, params.least);
     int radius = int(ceil(min(most, float(params.radius)))) + 1;
     GnFakeAxes axes = gn_fake_axes(at, half_light);
@@ -140,7 +140,7 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
     GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     ivec2 texel = gn_fake_texel(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, texel);
     if (own.lit || !gn_fake_spreads(at.light, params)) {
@@ -166,7 +166,7 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 // 1 in shadow, and what hides the light there lies so many metres before the receiver, packed.
 vec3 gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                  GnFakePenumbraParams params) {
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
     float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     return own.lit ? vec3(0.0) : vec3(1.0, gn_sssm_pack(max(receiver - own.distance, 0.0)), 0.0);

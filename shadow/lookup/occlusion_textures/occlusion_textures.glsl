@@ -93,14 +93,15 @@ float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_l
     int layer = at.projected.layer * ((params.slices + 3) / 4) + k / 4;
     int channel = k & 3;
     int cells = params.cells * params.cells;
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
     float hidden = 0.0;
     for (int i = 0; i < cells; ++i) {
         vec2 q = gn_occlusion_cell(half_light.square, i, params.cells);
         // The map may look askew: the middles of the cell's sides say where it is and how large.
-        vec2 left_ts = gn_pcss_shift(at, half_light, q - vec2(half_side, 0.0), spread);
-        vec2 right_ts = gn_pcss_shift(at, half_light, q + vec2(half_side, 0.0), spread);
-        vec2 down_ts = gn_pcss_shift(at, half_light, q - vec2(0.0, half_side), spread);
-        vec2 up_ts = gn_pcss_shift(at, half_light, q + vec2(0.0, half_side), spread);
+        vec2 left_ts = gn_pcss_way(kernel, q - vec2(half_side, 0.0));
+        vec2 right_ts = gn_pcss_way(kernel, q + vec2(half_side, 0.0));
+        vec2 down_ts = gn_pcss_way(kernel, q - vec2(0.0, half_side));
+        vec2 up_ts = gn_pcss_way(kernel, q + vec2(0.0, half_side));
         vec2 middle_ts = at.projected.uv_ts + 0.25 * (left_ts + right_ts + down_ts + up_ts);
         vec2 side_ts = sqrt((right_ts - left_ts) * (right_ts - left_ts) + (up_ts - down_ts) * (up_ts - down_ts));
         hidden += params.filter_by == GN_OCCLUSION_N_BUFFERS
@@ -115,7 +116,7 @@ float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_l
 float gn_occlusion_textures_visibility(GnLookup at, sampler2DArray depth, sampler2DArray slices, GnOcclusionTexturesParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     if (half_light.right_ws == vec3(0.0) && half_light.up_ws == vec3(0.0)) {
-        return gn_pcss_tap(at, depth, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), at.projected.uv_ts).lit ? 1.0 : 0.0;
+        return gn_pcss_tap(at, depth, gn_pcss_metres_of(at), at.projected.uv_ts).lit ? 1.0 : 0.0;
     }
     float end = gn_slices_end(at.light, at.view);
     float receiver = gn_slices_metres(at.light, at.view, at.projected.uv_ts, at.projected.depth);

@@ -31,7 +31,7 @@ struct GnPcssFound {
 
 GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light,
                            GnPcssParams params, float noise) {
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
@@ -39,7 +39,7 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
     }
 
     GnPcssKernel kernel = gn_pcss_kernel(at, half_light, region.spread);
-    GnPcssWiden widen = gn_pcss_widen(at, half_light, region.spread, params.least * at.projected.texel_ts, 0.0);
+    GnPcssWiden widen = gn_pcss_widen(kernel, params.least * at.projected.texel_ts, 0.0);
     GnPcssPoints points = gn_pcss_points(half_light.square, params.search_taps, noise);
     float sum = 0.0;
     float count = 0.0;
@@ -69,12 +69,12 @@ float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     }
     float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
     float least_ts = params.least * at.projected.texel_ts;
-    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, least_ts);
-    vec2 reach_ts = gn_pcss_reach(at, half_light, spread);
+    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
+    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, least_ts);
+    vec2 reach_ts = gn_pcss_reach(kernel, half_light.square);
     float width = max(max(reach_ts.x, reach_ts.y), least_ts) / at.projected.texel_ts;
     int taps = clamp(int(ceil(params.density * width)), min(4, params.taps), params.taps);
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssPoints points = gn_pcss_points(half_light.square, taps, noise);
     float lit = 0.0;
     for (int i = 0; i < taps; ++i) {
@@ -107,8 +107,9 @@ float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray py
         return 0.0;
     }
     float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
-    float right = length(gn_on_light_plane(at.view, gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread)));
-    float up = length(gn_on_light_plane(at.view, gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread)));
+    vec4 axes_ts = gn_pcss_axes(gn_pcss_kernel(at, half_light, spread));
+    float right = length(gn_on_light_plane(at.view, axes_ts.xy));
+    float up = length(gn_on_light_plane(at.view, axes_ts.zw));
     return max(min(right, up), 1.0e-30);
 }
 

@@ -82,6 +82,8 @@ GN_FN GnPcssMetres gn_pcss_metres(GnLightView view, vec3 axis_ws) {
     }
     return metres;
 }
+// Of a receiver's own view, along its axis.
+GN_FN GnPcssMetres gn_pcss_metres_of(GnLookup at) { return gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)); }
 
 // Metres along the axis from the light to what a tap holds at a linear depth; of a sun from the view's near plane.
 GN_FN float gn_pcss_distance(GnPcssMetres metres, GnLightView view, vec2 uv_ts, float depth) {
@@ -149,11 +151,17 @@ GN_FN vec2 gn_pcss_shift(GnLookup at, GnPcssLight half_light, vec2 q, float spre
     return gn_pcss_way(gn_pcss_kernel(at, half_light, spread), q);
 }
 
+// The ways of the points (1, 0) and (0, 1).
+GN_FN vec4 gn_pcss_axes(GnPcssKernel kernel) {
+    return vec4(gn_pcss_way(kernel, vec2(1.0f, 0.0f)), gn_pcss_way(kernel, vec2(0.0f, 1.0f)));
+}
+
 // Half the sides of the rectangle of the map around all such points.
-GN_FN vec2 gn_pcss_reach(GnLookup at, GnPcssLight half_light, float spread) {
-    vec2 right_ts = abs(gn_pcss_shift(at, half_light, vec2(1.0f, 0.0f), spread));
-    vec2 up_ts = abs(gn_pcss_shift(at, half_light, vec2(0.0f, 1.0f), spread));
-    return half_light.square ? right_ts + up_ts : sqrt(right_ts * right_ts + up_ts * up_ts);
+GN_FN vec2 gn_pcss_reach(GnPcssKernel kernel, bool square) {
+    vec4 axes_ts = abs(gn_pcss_axes(kernel));
+    vec2 right_ts = vec2(axes_ts.x, axes_ts.y);
+    vec2 up_ts = vec2(axes_ts.z, axes_ts.w);
+    return square ? right_ts + up_ts : sqrt(right_ts * right_ts + up_ts * up_ts);
 }
 
 // What lengthens a kernel beyond the light's points: by so much along the ways of its two axes on the map.
@@ -163,9 +171,10 @@ struct GnPcssWiden {
 };
 
 // Both axes lengthened, by `more_ts` in any case and besides to at least `least_ts`.
-GN_FN GnPcssWiden gn_pcss_widen(GnLookup at, GnPcssLight half_light, float spread, float more_ts, float least_ts) {
-    vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0f, 0.0f), spread);
-    vec2 up_ts = gn_pcss_shift(at, half_light, vec2(0.0f, 1.0f), spread);
+GN_FN GnPcssWiden gn_pcss_widen(GnPcssKernel kernel, float more_ts, float least_ts) {
+    vec4 axes_ts = gn_pcss_axes(kernel);
+    vec2 right_ts = vec2(axes_ts.x, axes_ts.y);
+    vec2 up_ts = vec2(axes_ts.z, axes_ts.w);
     float right = length(right_ts);
     float up = length(up_ts);
     GnPcssWiden widen;
@@ -285,7 +294,8 @@ GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight hal
     for (int step = 0; step < 3; ++step) {
         region.nearest = gn_pcss_distance(metres, at.view, at.projected.uv_ts, max(found.x, 0.0));
         region.spread = gn_pcss_spread_at(at, region.receiver, region.nearest);
-        found = gn_pcss_extremes(at, pyramid, gn_pcss_reach(at, half_light, region.spread) + least_ts);
+        vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
+        found = gn_pcss_extremes(at, pyramid, reach_ts + least_ts);
         if (found.y >= 0.0 && early_out) {
             region.visibility = found.y;
             return region;

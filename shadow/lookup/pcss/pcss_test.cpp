@@ -214,7 +214,7 @@ TEST(Pcss, NarrowKernelsAreLengthenedWhicheverWayTheLightsAxesRun) {
     for (const float side : {-1.0F, 1.0F}) {
         const glsl::GnPcssLight half_light{side * vec3(0.5F, 0, 0), side * vec3(0, 0, 0.5F), true};
         for (const float spread : {0.0F, 1e-4F, 0.5F}) {
-            const glsl::GnPcssWiden widen = glsl::gn_pcss_widen(at, half_light, spread, 0, 0.01F);
+            const glsl::GnPcssWiden widen = glsl::gn_pcss_widen(glsl::gn_pcss_kernel(at, half_light, spread), 0, 0.01F);
             const vec2 right = glsl::gn_pcss_shift(at, half_light, vec2(1, 0), spread) + widen.right_ts;
             const vec2 up = glsl::gn_pcss_shift(at, half_light, vec2(0, 1), spread) + widen.up_ts;
             EXPECT_GE(glm::length(right), 0.01 - 1e-6) << spread;

@@ -97,8 +97,9 @@ GnSmrtFan gn_smrt_fan(GnLookup at, GnPcssLight half_light, float spread, GnSmrtP
     fan.per_ws = gn_smrt_per(at.light, at.receiver.p_ws, n_ws);
     fan.spread = spread;
     fan.least_ts = params.least * at.projected.texel_ts;
-    vec2 right_ts = gn_pcss_shift(at, half_light, vec2(1.0, 0.0), spread);
-    vec2 up_ts = gn_pcss_shift(at, half_light, vec2(0.0, 1.0), spread);
+    vec4 axes_ts = gn_pcss_axes(gn_pcss_kernel(at, half_light, spread));
+    vec2 right_ts = axes_ts.xy;
+    vec2 up_ts = axes_ts.zw;
     float right = length(right_ts);
     float up = length(up_ts);
     fan.reach = spread > 0.0 ? vec2(right, up) / spread : vec2(0.0);
@@ -196,7 +197,7 @@ bool gn_smrt_hidden(GnLookup at, sampler2DArray depth, GnSmrtFan fan, vec2 q, fl
 
 float gn_smrt_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSmrtParams params) {
     GnPcssLight half_light = gn_smrt_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, true);
     if (region.visibility == 1.0) {
         return 1.0;

@@ -92,7 +92,7 @@ void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float r
 void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread, float y,
                  GnSssmParams params, inout GnSssmSum sum) {
     GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
-    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0, params.least * at.projected.texel_ts);
+    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, params.least * at.projected.texel_ts);
     float noise = gn_gradient_noise(at.receiver.p_ss);
     float weight = gn_sssm_weight(half_light.square, y);
     for (int i = 0; i < params.side; ++i) {
@@ -110,7 +110,7 @@ void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPc
 // receiver, and the region's spread, the last two packed.
 vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         float before = gn_sssm_pack(max(region.receiver - region.nearest, 0.0));
@@ -130,7 +130,7 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     }
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    gn_sssm_row(at, depth, half_light, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), 1.0, spread, 0.0, params, sum);
+    gn_sssm_row(at, depth, half_light, gn_pcss_metres_of(at), 1.0, spread, 0.0, params, sum);
     return 1.0 - sum.hidden / sum.weight;
 }
 #elif defined(GN_SSSM_GRID)
@@ -149,7 +149,7 @@ GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light
 }
 
 GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light, GnSssmParams params) {
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return GnSssmFound(region.visibility, 0.0);
@@ -165,7 +165,7 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
         return found.visibility;
     }
     float spread = gn_sssm_spread(at.light, at.receiver.p_ws, found.before);
-    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws)), 1.0, spread, params);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_metres_of(at), 1.0, spread, params);
     return 1.0 - sum.hidden / sum.weight;
 }
 

@@ -30,11 +30,13 @@ GN_FN float gn_vssm_share(bool square) { return square ? 1.0f : 0.8660254f; }
 GN_FN vec2 gn_vssm_box(vec2 right_ts, vec2 up_ts) { return sqrt(right_ts * right_ts + up_ts * up_ts); }
 
 GN_FN GnVssmKernel gn_vssm_kernel(GnLookup at, GnPcssLight half_light, float spread, float least_ts, int side) {
-    GnPcssWiden widen = gn_pcss_widen(at, half_light, spread, 0.0f, least_ts);
+    GnPcssKernel points = gn_pcss_kernel(at, half_light, spread);
+    GnPcssWiden widen = gn_pcss_widen(points, 0.0f, least_ts);
+    vec4 axes_ts = gn_pcss_axes(points);
     float share = gn_vssm_share(half_light.square);
     GnVssmKernel kernel;
-    kernel.right_ts = share * (gn_pcss_shift(at, half_light, vec2(1.0f, 0.0f), spread) + widen.right_ts);
-    kernel.up_ts = share * (gn_pcss_shift(at, half_light, vec2(0.0f, 1.0f), spread) + widen.up_ts);
+    kernel.right_ts = share * (vec2(axes_ts.x, axes_ts.y) + widen.right_ts);
+    kernel.up_ts = share * (vec2(axes_ts.z, axes_ts.w) + widen.up_ts);
     kernel.box_ts = gn_vssm_box(kernel.right_ts, kernel.up_ts) / float(side);
     return kernel;
 }
@@ -79,7 +81,7 @@ struct GnVssmFound {
 
 // What hides the light in each part of the region where anything can, and how far away it is.
 GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnVssmParams params) {
-    GnPcssMetres metres = gn_pcss_metres(at.view, gn_pcss_axis(at.light, at.receiver.p_ws));
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     GnVssmFound result = GnVssmFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
