@@ -58,16 +58,10 @@ void main() {
 }
 )";
 
-// A triangle's edges are curved on a paraboloid. Its bounding rectangle is drawn, and every texel's ray meets the triangle
-// itself: exact for triangles of any size, without subdividing them.
-constexpr const char* paraboloid_text = R"(
-#include "shadow/receiver/paraboloid.glsl"
+// What geometry stages of views share in which edges are curved: each triangle becomes the rectangle around it.
+constexpr const char* curved_text = R"(
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
-layout(location = 0) out vec2 out_u;
-layout(location = 1) flat out vec3 out_a;
-layout(location = 2) flat out vec3 out_b;
-layout(location = 3) flat out vec3 out_c;
 #ifdef GN_MASKED
 layout(location = 1) in vec3 in_mask[];
 layout(location = 4) flat out vec3 out_mask_a;
@@ -78,6 +72,37 @@ layout(location = 6) flat out vec3 out_mask_c;
 layout(location = 7) flat in int in_view[];
 layout(location = 7) flat out int out_view;
 #endif
+
+// Corner i of a rectangle (left, top, right, bottom) that winds as its triangle does, seen from the light.
+vec2 corner_of(vec4 box, int i, float facing) {
+    bool right = facing < 0.0 ? i >= 2 : (i & 1) != 0;
+    bool below = facing < 0.0 ? (i & 1) != 0 : i >= 2;
+    return vec2(right ? box.z : box.x, below ? box.w : box.y);
+}
+
+void emit_corner(vec2 p_ndc) {
+#ifdef GN_MASKED
+    out_mask_a = in_mask[0];
+    out_mask_b = in_mask[1];
+    out_mask_c = in_mask[2];
+#endif
+    gl_Position = vec4(p_ndc, 0.5, 1.0);
+#ifdef GN_TILES
+    out_view = in_view[0];
+    gl_Position = gn_tile_clip(views[out_view], gl_Position);
+#endif
+    EmitVertex();
+}
+)";
+
+// A triangle's edges are curved on a paraboloid. Its bounding rectangle is drawn, and every texel's ray meets the triangle
+// itself: exact for triangles of any size, without subdividing them.
+constexpr const char* paraboloid_text = R"(
+#include "shadow/receiver/paraboloid.glsl"
+layout(location = 0) out vec2 out_u;
+layout(location = 1) flat out vec3 out_a;
+layout(location = 2) flat out vec3 out_b;
+layout(location = 3) flat out vec3 out_c;
 void main() {
     vec3 a = gl_in[0].gl_Position.xyz;
     vec3 b = gl_in[1].gl_Position.xyz;
@@ -88,25 +113,12 @@ void main() {
     if (extent <= 0.0 || box.x >= box.z || box.y >= box.w || facing == 0.0) {
         return;
     }
-    // The rectangle winds as the triangle does, seen from the light.
     for (int i = 0; i < 4; ++i) {
-        bool right = facing < 0.0 ? i >= 2 : (i & 1) != 0;
-        bool below = facing < 0.0 ? (i & 1) != 0 : i >= 2;
-        out_u = vec2(right ? box.z : box.x, below ? box.w : box.y);
+        out_u = corner_of(box, i, facing);
         out_a = a;
         out_b = b;
         out_c = c;
-#ifdef GN_MASKED
-        out_mask_a = in_mask[0];
-        out_mask_b = in_mask[1];
-        out_mask_c = in_mask[2];
-#endif
-        gl_Position = vec4(out_u / extent, 0.5, 1.0);
-#ifdef GN_TILES
-        out_view = in_view[0];
-        gl_Position = gn_tile_clip(views[out_view], gl_Position);
-#endif
-        EmitVertex();
+        emit_corner(out_u / extent);
     }
     EndPrimitive();
 }
@@ -231,7 +243,7 @@ RasterDesc caster_pipeline(const CasterPass& pass, const CasterVariant& variant)
     if (curved) {
         desc.geometry = ShaderSource{
             ShaderKind::geometry, pass.name + ".geom",
-            defines + types + shared.text() +
+            defines + types + shared.text() + curved_text +
                 (paraboloid ? std::string(paraboloid_text) : include_line("shadow/casters/caster_rows.glsl"))};
     }
     if (needs_fragment) {

@@ -3,21 +3,9 @@
 // every texel finds its own point of the triangle.
 #include "shadow/receiver/logarithm.glsl"
 layout(push_constant, scalar) uniform Push { int view; float base_alpha; float alpha_cutoff; int object; int draw; } push;
-layout(triangles) in;
-layout(triangle_strip, max_vertices = 4) out;
 layout(location = 1) flat out vec4 out_a;
 layout(location = 2) flat out vec4 out_b;
 layout(location = 3) flat out vec4 out_c;
-#ifdef GN_MASKED
-layout(location = 1) in vec3 in_mask[];
-layout(location = 4) flat out vec3 out_mask_a;
-layout(location = 5) flat out vec3 out_mask_b;
-layout(location = 6) flat out vec3 out_mask_c;
-#endif
-#ifdef GN_TILES
-layout(location = 7) flat in int in_view[];
-layout(location = 7) flat out int out_view;
-#endif
 void main() {
 #ifdef GN_TILES
     int view = in_view[0];
@@ -35,22 +23,10 @@ void main() {
         return;
     }
     for (int i = 0; i < 4; ++i) {
-        bool right = facing < 0.0 ? i >= 2 : (i & 1) != 0;
-        bool below = facing < 0.0 ? (i & 1) != 0 : i >= 2;
         out_a = a;
         out_b = b;
         out_c = c;
-#ifdef GN_MASKED
-        out_mask_a = in_mask[0];
-        out_mask_b = in_mask[1];
-        out_mask_c = in_mask[2];
-#endif
-        gl_Position = vec4(right ? box.z : box.x, below ? box.w : box.y, 0.5, 1.0);
-#ifdef GN_TILES
-        out_view = view;
-        gl_Position = gn_tile_clip(views[view], gl_Position);
-#endif
-        EmitVertex();
+        emit_corner(corner_of(box, i, facing));
     }
     EndPrimitive();
 }

@@ -2,6 +2,7 @@
 #include "shadow/casters/kept_map.h"
 
 #include "gpu/hash.h"
+#include "shadow/casters/moved.h"
 #include "shadow/frame/history.h"
 #include "shadow/scene/casting.h"
 
@@ -45,9 +46,7 @@ void add_recipe(Hasher& hasher, const Recipe& recipe) {
 }
 
 Fingerprint made_of(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
-    GnLight shape = input.light().shape;
-    shape.color = vec4(0);
-    shape.intensity = 0;
+    const GnLight shape = shadow_shape(input.light());
     const Fingerprint casting = casting_of(input.scene, input.light());
     Hasher hasher;
     hasher.value(input.handles.version).value(input.translucent).value(casting.low).value(casting.high);

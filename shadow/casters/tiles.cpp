@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/casters/tiles.h"
 
+#include "shadow/receiver/line_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
@@ -19,17 +20,12 @@ void add_commands(const FrameInput& input, const LightViews& views, ShaderInputs
     inputs.constant("uint", "commands", commands);
     const auto shader = compute_once(input.prepared, "tile draws", hashed(inputs), [&] {
         return inputs.text() + "layout(local_size_x = 64) in;\nvoid main() {\n" +
-               "    uint i = gl_GlobalInvocationID.x;\n    if (i >= u.commands) {\n        return;\n    }\n" +
+               "    uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + "
+               "gl_LocalInvocationIndex;\n    if (i >= u.commands) {\n        return;\n    }\n" +
                (views.count.valid() ? "    uint instances = min(count, u.most);\n" : "    uint instances = u.most;\n") +
                body + "}\n";
     });
-    input.graph.add_pass(
-        "tile draws", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, commands, shader](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch((commands + 63) / 64, 1);
-        });
+    add_line_pass(input.graph, "tile draws", inputs, shader, commands);
 }
 
 }  // namespace
@@ -62,7 +58,7 @@ namespace {
 constexpr const char* lists_text = R"(
 layout(local_size_x = 64) in;
 void main() {
-    uint object = gl_GlobalInvocationID.x;
+    uint object = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
     if (object >= u.objects) {
         return;
     }
@@ -129,13 +125,7 @@ TileLists add_tile_lists(const FrameInput& input, const LightViews& views) {
                (views.count.valid() ? "#define GN_TILE_COUNT min(count, u.most)\n" : "#define GN_TILE_COUNT u.most\n") +
                lists_text;
     });
-    input.graph.add_pass(
-        "tile lists", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [inputs, objects, shader](Recorder& r) {
-            r.bind(*shader);
-            inputs.set(r);
-            r.dispatch((objects + 63) / 64, 1);
-        });
+    add_line_pass(input.graph, "tile lists", inputs, shader, objects);
     return lists;
 }
 

@@ -260,6 +260,15 @@ double texels_across(const dmat4& rows, const Box& box_ws, float resolution) {
 
 }  // namespace
 
+std::vector<vec4> clip_rows(std::span<const GnLightView> views) {
+    std::vector<vec4> rows;
+    for (const GnLightView& view : views) {
+        const mat4 m = glm::transpose(view.cs_from_ws);
+        rows.insert(rows.end(), {m[0], m[1], m[3]});
+    }
+    return rows;
+}
+
 std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view, float least) {
     // Before the near plane everything casts; behind the far plane nothing. The rectangle is extended a little: rounding
     // moves vertices by less than a texel.

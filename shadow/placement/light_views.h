@@ -6,6 +6,10 @@
 #include "shadow/recipe/guard.h"
 #include "shadow/stages.h"
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 namespace gn {
 
 /// A rotation-free description of an orthographic or perspective light view.
@@ -37,6 +41,16 @@ void add_cube_views(LightViews& views, const FrameInput& input, const Guard& gua
 /// Objects that the light, passing through the view's rectangle, can meet before the view's far plane.
 /// `least`: without those whose bounds span fewer texels than this to the longer side; 0 leaves none out.
 std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& view, float least = 0);
+
+/// Rows x, y and w of each view's clip space.
+std::vector<vec4> clip_rows(std::span<const GnLightView> views);
+
+/// Elements of a placement's table as they travel.
+template <class T>
+std::vector<std::byte> bytes_of(const std::vector<T>& elements) {
+    const auto bytes = std::as_bytes(std::span(elements));
+    return {bytes.begin(), bytes.end()};
+}
 
 /// Distance to the near plane of a light whose receivers may be anywhere: small, since depth is linear and costs no precision.
 double near_plane(double far);

@@ -184,17 +184,6 @@ void tell_coarser(const FrameInput& input, const GnTreeConstants& t, BufferHandl
     });
 }
 
-/// Rows x, y and w of each map's view.
-std::vector<std::byte> rows_of(const LightViews& maps) {
-    std::vector<vec4> rows;
-    for (const GnLightView& view : maps.views) {
-        const mat4 m = glm::transpose(view.cs_from_ws);
-        rows.insert(rows.end(), {m[0], m[1], m[3]});
-    }
-    const auto bytes = std::as_bytes(std::span(rows));
-    return {bytes.begin(), bytes.end()};
-}
-
 LightViews views_by(const FrameInput& input, const Recipe& recipe, const GnTreeConstants& constants,
                     const LightViews& maps, const adaptive::TreeTiles& made) {
     LightViews views;
@@ -211,7 +200,7 @@ LightViews views_by(const FrameInput& input, const Recipe& recipe, const GnTreeC
     // is that short.
     views.views.assign(static_cast<std::size_t>(std::max(constants.tiles, fewest_views)), unknown);
     views.tables = {{.name = "pages", .type = "uint", .buffer = made.pages, .bytes = {}},
-                    {.name = "rows", .type = "vec4", .buffer = {}, .bytes = rows_of(maps)}};
+                    {.name = "rows", .type = "vec4", .buffer = {}, .bytes = bytes_of(clip_rows(maps.views))}};
     views.set_data(constants.data);
     return views;
 }

@@ -13,6 +13,7 @@
 
 #include "shadow/casters/pages.h"
 #include "shadow/frame/history.h"
+#include "shadow/placement/light_views.h"
 #include "shadow/placement/virtual/virtual_passes.h"
 #include "shadow/recipe/guard.h"
 
@@ -91,12 +92,6 @@ void answer_drawn(const FrameInput& input, BufferHandle count) {
     input.graph.answer(count, [drawn](std::span<const std::byte> bytes) { std::memcpy(drawn.get(), bytes.data(), 4); });
 }
 
-template <class T>
-std::vector<std::byte> bytes_of(const std::vector<T>& values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    return {bytes.begin(), bytes.end()};
-}
-
 LightViews place_virtual(const FrameInput& input, const Recipe& recipe) {
     const Guard guard = guard_of(input, recipe);
     PageJob job;
@@ -128,7 +123,7 @@ LightViews place_virtual(const FrameInput& input, const Recipe& recipe) {
     views.set_data(job.data);
     views.tables = {
         {.name = "pages", .type = "uint", .buffer = pages.table, .bytes = {}},
-        {.name = "rows", .type = "vec4", .buffer = {}, .bytes = bytes_of(virtual_pages::rows_of(job.grid))},
+        {.name = "rows", .type = "vec4", .buffer = {}, .bytes = bytes_of(clip_rows(job.grid.faces))},
         {.name = std::string(drawn_pages_table), .type = "GnLightView", .buffer = pages.drawn, .bytes = {}}};
     answer_drawn(input, pages.count);
     return views;

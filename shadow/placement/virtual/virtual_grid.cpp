@@ -2,6 +2,7 @@
 #include "shadow/placement/virtual/virtual_grid.h"
 
 #include "shadow/casters/kept_map.h"
+#include "shadow/casters/moved.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
@@ -18,17 +19,6 @@ constexpr std::size_t most_boxes = 64;
 
 /// A cone up to this tangent is served by one face: beyond it texels at the rim are three times as wide as in the middle.
 constexpr double widest_face = 1.5;
-
-GnLight shape_of(const FrameInput& input) {
-    GnLight shape = input.light().shape;
-    shape.color = vec4(0);
-    shape.intensity = 0;
-    return shape;
-}
-
-bool contains(const Box& outer, const Box& inner) {
-    return glm::all(glm::lessThanEqual(outer.min, inner.min)) && glm::all(glm::greaterThanEqual(outer.max, inner.max));
-}
 
 /// A square of the sun's plane around all that can be seen, whose sides run the same way whatever that is.
 GnLightView sun_face(const FrameInput& input, const Box& seen_ws, const Guard& guard) {
@@ -84,14 +74,13 @@ void add_lamp_faces(Grid& grid, const FrameInput& input) {
 }  // namespace
 
 bool same_faces(const Grid& a, const Grid& b) {
-    return a.faces.size() == b.faces.size() && a.casting == b.casting &&
-           std::memcmp(&a.shape, &b.shape, sizeof a.shape) == 0 &&
+    return a.faces.size() == b.faces.size() && a.casting == b.casting && same_shape(a.shape, b.shape) &&
            std::memcmp(a.faces.data(), b.faces.data(), a.faces.size() * sizeof(GnLightView)) == 0;
 }
 
 Grid grid_of(const FrameInput& input, const Recipe& recipe, const Grid* before) {
     Grid grid;
-    grid.shape = shape_of(input);
+    grid.shape = shadow_shape(input.light());
     grid.seen_ws = seen_bounds(input);
     if (grid.seen_ws.empty()) {
         grid.seen_ws = Box{vec3(-1), vec3(1)};
@@ -100,8 +89,9 @@ Grid grid_of(const FrameInput& input, const Recipe& recipe, const Grid* before) 
     const Fingerprint casting = casting_of(input.scene, input.light());
     grid.casting = Hasher().value(casting.low).value(casting.high).finish().low;
     grid.version = input.handles.version;
-    const bool serves = before != nullptr && std::memcmp(&before->shape, &grid.shape, sizeof grid.shape) == 0 &&
-                        contains(before->seen_ws, grid.seen_ws) && before->reach >= grid.reach;
+    const bool serves = before != nullptr && same_shape(before->shape, grid.shape) &&
+                        before->seen_ws.contains(grid.seen_ws.min) && before->seen_ws.contains(grid.seen_ws.max) &&
+                        before->reach >= grid.reach;
     if (serves) {
         grid.faces = before->faces;
         grid.around = before->around;
@@ -120,16 +110,9 @@ Grid grid_of(const FrameInput& input, const Recipe& recipe, const Grid* before) 
 }
 
 std::optional<std::vector<vec4>> touched_parts(const FrameInput& input, const Grid& before) {
-    std::optional<std::vector<Box>> boxes = input.handles.touched_since(before.version);
+    const std::optional<std::vector<Box>> boxes = moved_since(input.handles, before.version, most_boxes);
     if (!boxes) {
         return {};
-    }
-    if (boxes->size() > most_boxes) {
-        Box all;
-        for (const Box& box : *boxes) {
-            all.grow(box);
-        }
-        boxes = {all};
     }
     std::vector<vec4> parts;
     for (const Box& box : *boxes) {

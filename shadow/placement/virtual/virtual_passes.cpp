@@ -5,6 +5,7 @@
 #include "shadow/placement/virtual/virtual_passes.h"
 
 #include "gpu/zeros_pass.h"
+#include "shadow/placement/light_views.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
@@ -357,7 +358,7 @@ Buffers create_buffers(FrameGraph& graph, const PageJob& job) {
 
 /// What samples ask for.
 void add_marks(const FrameInput& input, const PageJob& job, const Buffers& b) {
-    const std::vector<vec4> rows = rows_of(job.grid);
+    const std::vector<vec4> rows = clip_rows(job.grid.faces);
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
     inputs.block("readonly buffer", "Rows", "vec4 rows[];", std::as_bytes(std::span(rows)))
@@ -431,15 +432,6 @@ std::vector<Step> steps_of(const PageJob& job, std::uint32_t rows) {
 }
 
 }  // namespace
-
-std::vector<vec4> rows_of(const Grid& grid) {
-    std::vector<vec4> rows;
-    for (const GnLightView& face : grid.faces) {
-        const mat4 m = glm::transpose(face.cs_from_ws);
-        rows.insert(rows.end(), {m[0], m[1], m[3]});
-    }
-    return rows;
-}
 
 Pages add_page_search(const FrameInput& input, const PageJob& job) {
     const Buffers b = create_buffers(input.graph, job);

@@ -32,9 +32,6 @@ struct Pages {
     BufferHandle count;  ///< how many these are
 };
 
-/// Rows x, y and w of each face's clip space, as gn_virtual_rows reads them.
-std::vector<vec4> rows_of(const Grid& grid);
-
 Pages add_page_search(const FrameInput& input, const PageJob& job);
 
 }  // namespace gn::virtual_pages

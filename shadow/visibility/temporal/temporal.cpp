@@ -8,6 +8,7 @@
 // light begin anew, where the paper lets old shadows fade.
 #include "shadow/visibility/temporal/temporal.h"
 
+#include "shadow/casters/moved.h"
 #include "shadow/frame/frame.h"
 #include "shadow/frame/history.h"
 #include "shadow/receiver/channels.h"
@@ -107,33 +108,13 @@ struct Gathered {
     GnLight shape;
 };
 
-/// The light as far as shadows know it.
-GnLight shape_of(const FrameInput& input) {
-    GnLight shape = input.light().shape;
-    shape.color = vec4(0);
-    shape.intensity = 0;
-    return shape;
-}
-
-bool same(const GnLight& a, const GnLight& b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
 /// Where casters were and are that moved since; unset where everything begins anew.
 std::optional<std::vector<Box>> touched_since(const FrameInput& input, const Gathered* before) {
-    if (before == nullptr || !same(before->shape, shape_of(input))) {
+    if (before == nullptr || !same_shape(before->shape, shadow_shape(input.light()))) {
         return {};
     }
-    std::optional<std::vector<Box>> boxes = input.handles.touched_since(before->version);
     // More than the shader is given become one around all.
-    if (boxes && boxes->size() > most_boxes) {
-        Box all;
-        for (const Box& box : *boxes) {
-            all.grow(box);
-        }
-        boxes = {all};
-    }
-    return boxes;
+    return moved_since(input.handles, before->version, most_boxes);
 }
 
 /// What the frame before left, where it did.
@@ -178,7 +159,7 @@ Visibility add_temporal(const FrameInput& input, const Recipe& recipe, const Vis
     const ViewSamples& samples = input.samples;
     const std::string name = fmt::format("shadow of light {} {}", input.light_id, recipe.name);
     const std::optional<std::vector<Box>> touched = touched_since(input, input.history->before<Gathered>(name));
-    input.history->leave(name, Gathered{input.handles.version, shape_of(input)});
+    input.history->leave(name, Gathered{input.handles.version, shadow_shape(input.light())});
     const History::Pair pair = input.history->pair({.name = name,
                                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                                                     .width = samples.width,
