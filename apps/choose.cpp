@@ -4,7 +4,15 @@
 #include "base/error.h"
 #include "base/param.h"
 
+#include <cstdlib>
+
 namespace gn {
+
+void set_device_threads(int threads) {
+    if (threads > 0) {
+        setenv("LP_NUM_THREADS", fmt::format("{}", threads).c_str(), 0);
+    }
+}
 
 LoadOptions load_options(const FileOptions& file, const Size& size) {
     const GroundOption& ground = file.ground;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the command line names inside a scene.
+// What the command line names inside a scene, and what it says of the device before there is one.
 #pragma once
 
 #include "apps/options.h"
@@ -17,6 +17,9 @@ std::size_t find_light(const Scene& scene, const std::string& name);
 
 /// The camera path that --path names; "" is the scene's first. Throws Error listing the scene's paths.
 const CameraPath& find_path(const Scene& scene, const std::string& name);
+
+/// How many threads a software device has, which it reads once, when it is made; 0 leaves it to the device.
+void set_device_threads(int threads);
 
 /// A shipped recipe, or nothing, with a warning on standard error, where it names what is not there.
 std::optional<Recipe> recipe_if_sound(const std::string& name);

@@ -2,6 +2,7 @@
 #include "apps/notes.h"
 
 #include "base/error.h"
+#include "shadow/frame/frame.h"
 
 #include <spdlog/spdlog.h>
 
@@ -101,6 +102,16 @@ std::vector<std::string> grouped_reasons(std::span<const LightReason> lights, st
         sentences[i] = fmt::format("{}{}: {}", of, what, sentences[i]);
     }
     return sentences;
+}
+
+std::vector<LightReason> refused_lights(const Scene& scene, const FrameResult& frame) {
+    std::vector<LightReason> refused;
+    for (std::size_t l = 0; l < frame.refused.size(); ++l) {
+        if (!frame.refused[l].empty()) {
+            refused.emplace_back(scene.lights.at(l).name, frame.refused[l]);
+        }
+    }
+    return refused;
 }
 
 std::string joined_reasons(std::span<const LightReason> lights) {

@@ -63,12 +63,7 @@ void write_visibility(const std::filesystem::path& path, const Scene& scene, con
 
 /// Says on standard error which lights are refused, a line a reason, and returns how many.
 std::size_t say_refusals(const Scene& scene, const FrameResult& frame) {
-    std::vector<LightReason> refused;
-    for (std::size_t l = 0; l < frame.refused.size(); ++l) {
-        if (!frame.refused[l].empty()) {
-            refused.emplace_back(scene.lights.at(l).name, frame.refused[l]);
-        }
-    }
+    const std::vector<LightReason> refused = refused_lights(scene, frame);
     const bool all = refused.size() == scene.lights.size();
     for (const std::string& sentence : grouped_reasons(refused)) {
         fmt::print(stderr, "gnomon: refused, {}: {}\n",

@@ -6,6 +6,7 @@
 #include "base/paths.h"
 #include "shadow/metrics/metrics.h"
 #include "shadow/recipe/recipe.h"
+#include "shadow/recipe/recipe_set.h"
 
 #include <algorithm>
 #include <fstream>
@@ -158,8 +159,7 @@ void show_recipe(const std::string& name) {
         }
     }
     if (mapped) {
-        ParamTable bias = bias_params;
-        std::memcpy(bias.defaults.data(), &recipe.bias, sizeof recipe.bias);
+        const ParamTable bias = bias_table(recipe.bias);
         fmt::print("\n{}", parameter_table(ParamBlock(bias), "bias", "value"));
     }
 }

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Values of a TOML file as one would type them.
+// Keys of a TOML file, and values as one would type them.
 #pragma once
+
+#include "base/error.h"
+#include "base/param.h"
 
 #define TOML_HEADER_ONLY 1
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace gn {
+
+/// The keys of a table are all among the known ones. Throws Error naming `where`, the key, and what comes near.
+inline void check_toml_keys(const toml::table& table, std::span<const std::string_view> known,
+                            const std::string& where) {
+    for (const auto& [key, node] : table) {
+        if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+            fail("{}: unknown key '{}'; {}", where, key.str(), suggest(key.str(), known));
+        }
+    }
+}
 
 /// A text, a whole number, a number, true or false; unset for lists, tables and dates.
 inline std::optional<std::string> scalar_text(const toml::node& node) {

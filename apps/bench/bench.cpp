@@ -11,7 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <new>
 
 namespace gn {
@@ -59,10 +58,7 @@ int run(const BenchOptions& options) {
         check_writable_parent("--json", options.json);
     }
     say_notes(options.scene, scene.notes);
-    // A software device reads its number of threads once, when it is made.
-    if (options.threads > 0) {
-        setenv("LP_NUM_THREADS", fmt::format("{}", options.threads).c_str(), 0);
-    }
+    set_device_threads(options.threads);
     watch_signals();
 
     // What the machine can do.

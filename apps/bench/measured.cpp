@@ -56,12 +56,7 @@ void judge(BenchedRun& run, const MachineRates& machine) {
 
 /// What was refused of the scene's lights; the run goes on where some were served.
 void say_refusals(BenchedRun& run, const Scene& scene, const FrameResult& frame) {
-    std::vector<LightReason> refused;
-    for (std::size_t l = 0; l < frame.refused.size(); ++l) {
-        if (!frame.refused[l].empty()) {
-            refused.emplace_back(scene.lights.at(l).name, frame.refused[l]);
-        }
-    }
+    const std::vector<LightReason> refused = refused_lights(scene, frame);
     run.reason = refused.empty() ? "" : joined_reasons(refused);
     run.status = !refused.empty() && refused.size() == scene.lights.size() ? Status::refused : Status::ok;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // gnomon compare: every recipe on every scene; each finished run is written at once.
+#include "apps/choose.h"
 #include "apps/compare/measure.h"
 #include "apps/compare/publish.h"
 #include "apps/notes.h"
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <set>
 
@@ -323,10 +323,7 @@ int run(const CompareOptions& asked) {
     if (!options.folder.empty()) {
         check_report(options.folder);
     }
-    // A software device reads its number of threads once, when it is made.
-    if (options.threads > 0) {
-        setenv("LP_NUM_THREADS", fmt::format("{}", options.threads).c_str(), 0);
-    }
+    set_device_threads(options.threads);
     watch_signals();
     return Comparer(options, against ? &*against : nullptr).run(recipes);
 }

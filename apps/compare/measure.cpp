@@ -6,6 +6,7 @@
 #include "apps/notes.h"
 #include "apps/output.h"
 #include "apps/reach.h"
+#include "shadow/recipe/recipe_set.h"
 #include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
 #include "shadow/show/show.h"
@@ -30,8 +31,7 @@ void add_parameters(RunResult& run, const Recipe& recipe) {
     run.parameters.emplace_back("placement", recipe.placement_name());
     run.parameters.emplace_back("resolution", fmt::format("{}", recipe.resolution));
     run.parameters.emplace_back("casters", name_of(recipe.casters));
-    ParamTable bias = bias_params;
-    std::memcpy(bias.defaults.data(), &recipe.bias, sizeof recipe.bias);
+    const ParamTable bias = bias_table(recipe.bias);
     for (const ParamRow& row : bias.rows) {
         run.parameters.emplace_back(fmt::format("bias.{}", row.name), ParamBlock(bias).get(row.name));
     }

@@ -15,15 +15,6 @@ namespace {
 
 constexpr std::size_t most_values = 10'000;
 
-/// The keys of a table are all among the known ones.
-void check_keys(const toml::table& table, std::span<const std::string_view> known, const std::string& where) {
-    for (const auto& [key, node] : table) {
-        if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
-            fail("{}: unknown key '{}'; {}", where, key.str(), suggest(key.str(), known));
-        }
-    }
-}
-
 /// A text, a whole number, a number or true and false, as it would be typed.
 std::string text_of(const toml::node& node, const std::string& where) {
     if (std::optional<std::string> text = scalar_text(node)) {
@@ -74,7 +65,7 @@ AxisValue read_value(const toml::node& node, const std::string& where) {
 Axis read_axis(const toml::node& node, const std::string& where, bool quick) {
     constexpr std::array<std::string_view, 3> known{"name", "values", "quick"};
     const toml::table& table = table_of(node, where);
-    check_keys(table, known, where);
+    check_toml_keys(table, known, where);
     Axis axis;
     axis.name = text_at(table, "name", where);
     if (axis.name.empty()) {
@@ -148,10 +139,10 @@ Grid read_grid(const toml::node& node, Settings settings, const std::string& whe
     constexpr std::array<std::string_view, 11> known{"name",  "scene",   "recipe", "axis",      "size", "view",
                                                      "light", "samples", "repeat", "reference", "quick"};
     const toml::table& table = table_of(node, where);
-    check_keys(table, known, where);
+    check_toml_keys(table, known, where);
     read_settings(settings, table, where);
     if (const toml::node* shorter = table.get("quick")) {
-        check_keys(table_of(*shorter, where + ": quick"), setting_names, where + ": quick");
+        check_toml_keys(table_of(*shorter, where + ": quick"), setting_names, where + ": quick");
         if (quick) {
             read_settings(settings, *shorter->as_table(), where + ": quick");
         }
@@ -203,7 +194,7 @@ const Axis& axis_named(const Grid& grid, const std::string& name, const std::str
 PlotRequest read_plot(const toml::node& node, const SweepFile& file, const std::string& where) {
     constexpr std::array<std::string_view, 6> known{"title", "grid", "x", "y", "by", "where"};
     const toml::table& table = table_of(node, where);
-    check_keys(table, known, where);
+    check_toml_keys(table, known, where);
     PlotRequest plot{text_at(table, "title", where), text_at(table, "grid", where), text_at(table, "x", where),
                      text_at(table, "y", where),     text_at(table, "by", where),   {}};
     const Grid& grid = grid_named(file, plot.grid, where);
@@ -229,7 +220,7 @@ PlotRequest read_plot(const toml::node& node, const SweepFile& file, const std::
 LimitsRequest read_limits(const toml::node& node, const SweepFile& file, const std::string& where) {
     constexpr std::array<std::string_view, 4> known{"grid", "objects", "target", "budgets_ms"};
     const toml::table& table = table_of(node, where);
-    check_keys(table, known, where);
+    check_toml_keys(table, known, where);
     LimitsRequest limits{
         text_at(table, "grid", where), text_at(table, "objects", where), text_at(table, "target", where), {}};
     const Grid& grid = grid_named(file, limits.grid, where);
@@ -269,7 +260,7 @@ SweepFile parse_sweep(std::string_view text, const std::string& where, bool quic
     constexpr std::array<std::string_view, 13> known{"title",   "paragraph", "citation", "grid", "plot",
                                                      "limits",  "quick",     "size",     "view", "light",
                                                      "samples", "repeat",    "reference"};
-    check_keys(table, known, where);
+    check_toml_keys(table, known, where);
     SweepFile file{text_at(table, "title", where),
                    text_at(table, "paragraph", where),
                    text_at(table, "citation", where),
@@ -280,7 +271,7 @@ SweepFile parse_sweep(std::string_view text, const std::string& where, bool quic
     Settings settings;
     read_settings(settings, table, where);
     if (const toml::node* shorter = table.get("quick")) {
-        check_keys(table_of(*shorter, where + ": quick"), setting_names, where + ": quick");
+        check_toml_keys(table_of(*shorter, where + ": quick"), setting_names, where + ": quick");
         if (quick) {
             read_settings(settings, *shorter->as_table(), where + ": quick");
         }

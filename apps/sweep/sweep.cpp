@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // gnomon sweep: every run of a grid that is not finished yet, each on the disk before the next begins; gnomon merge.
+#include "apps/choose.h"
 #include "apps/compare/measure.h"
 #include "apps/evaluation/sweep_store.h"
 #include "apps/options.h"
@@ -292,9 +293,7 @@ int run(const SweepOptions& asked) {
     if (!options.report.empty()) {
         check_sweep_page(options.report);
     }
-    if (options.threads > 0) {
-        setenv("LP_NUM_THREADS", fmt::format("{}", options.threads).c_str(), 0);
-    }
+    set_device_threads(options.threads);
     // Measure, then show.
     watch_signals();
     SweepStore store = reading([&] { return SweepStore(options.output, sweep.title); });

@@ -2,6 +2,7 @@
 #include "apps/view/recipe_text.h"
 
 #include "shadow/recipe/check_recipe.h"
+#include "shadow/recipe/recipe_set.h"
 
 #include <algorithm>
 #include <optional>
@@ -58,27 +59,14 @@ std::string joined_ids(std::span<const Part* const> parts) {
     return ids.empty() ? "none" : ids;
 }
 
-/// A value of GnBias by its row, as text.
-std::string bias_value(const Recipe& recipe, std::string_view name) {
-    const ParamRow* row = bias_params.find(name);
-    GN_CHECK(row != nullptr);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&recipe.bias) + row->offset;
-    int integer = 0;
-    float real = 0;
-    std::memcpy(&integer, bytes, sizeof integer);
-    std::memcpy(&real, bytes, sizeof real);
-    return row->type == ParamType::real      ? fmt::format("{}", real)
-           : row->type == ParamType::boolean ? (integer != 0 ? "true" : "false")
-                                             : fmt::format("{}", integer);
-}
-
 }  // namespace
 
 std::string value_of(const Recipe& recipe, std::string_view key) {
     const std::size_t dot = key.find('.');
     if (dot != std::string_view::npos) {
         const std::string_view group = key.substr(0, dot), name = key.substr(dot + 1);
-        return group == "bias" ? bias_value(recipe, name) : recipe.params.find(group)->second.get(name);
+        const ParamTable bias = bias_table(recipe.bias);
+        return group == "bias" ? ParamBlock(bias).get(name) : recipe.params.find(group)->second.get(name);
     }
     return key == "light"        ? id_of(recipe.light, "none")
            : key == "placement"  ? recipe.placement_name()

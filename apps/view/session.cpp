@@ -3,8 +3,7 @@
 #include "apps/output.h"
 #include "apps/view/setup.h"
 #include "base/param.h"
-
-#include <toml++/toml.h>
+#include "base/toml_scalar.h"
 
 #include <algorithm>
 #include <sstream>
@@ -12,9 +11,9 @@
 namespace gn {
 namespace {
 
-constexpr std::array<std::string_view, 14> session_keys{"scene",   "ground", "up",     "assets", "linked",
-                                                        "against", "other",  "split",  "error",  "light",
-                                                        "stops",   "lights", "window", "picture"};
+constexpr std::array<std::string_view, 15> session_keys{"scene",   "ground", "up",     "assets",  "linked",
+                                                        "against", "other",  "split",  "error",   "light",
+                                                        "stops",   "lights", "window", "picture", "viewport"};
 constexpr std::array<std::string_view, 4> viewport_keys{"recipe", "view", "camera", "show"};
 
 std::string text_of(const Size& size) {
@@ -23,14 +22,6 @@ std::string text_of(const Size& size) {
 
 std::string ground_text(const GroundOption& ground) {
     return ground.height ? fmt::format("{}", *ground.height) : ground.automatic ? "auto" : "none";
-}
-
-void check_keys(const toml::table& table, std::span<const std::string_view> known, const std::string& where) {
-    for (const auto& [key, node] : table) {
-        if (std::find(known.begin(), known.end(), key.str()) == known.end() && key.str() != "viewport") {
-            fail("{}: unknown key '{}'; {}", where, key.str(), suggest(key.str(), known));
-        }
-    }
 }
 
 /// The value of a key, or what stood there before.
@@ -65,7 +56,7 @@ std::vector<std::string> texts_of(const toml::table& table, std::string_view key
 }
 
 ViewportSetup viewport_of(const toml::table& table, const std::string& where) {
-    check_keys(table, viewport_keys, where);
+    check_toml_keys(table, viewport_keys, where);
     ViewportSetup viewport;
     take(table, "recipe", viewport.recipe, where);
     take(table, "view", viewport.view, where);
@@ -121,7 +112,7 @@ std::string toml_of(const ViewSetup& setup) {
 
 ViewSetup read_session(const std::string& path) {
     const toml::table table = table_of(path);
-    check_keys(table, session_keys, path);
+    check_toml_keys(table, session_keys, path);
     ViewSetup setup;
     std::string ground = "auto", up = "y", against = "nothing", window = text_of(setup.window), picture;
     double split = 0.5, stops = 0;

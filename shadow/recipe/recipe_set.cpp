@@ -49,9 +49,18 @@ void set_param(ParamBlock& block, std::string_view name, std::string_view value,
     block.set(block.table() != nullptr ? canonical(*block.table(), name) : name, value, where);
 }
 
+}  // namespace
+
+ParamTable bias_table(const GnBias& bias) {
+    ParamTable table = bias_params;
+    std::memcpy(table.defaults.data(), &bias, sizeof bias);
+    return table;
+}
+
+namespace {
+
 void set_bias(GnBias& bias, std::string_view name, std::string_view value, const std::string& where) {
-    ParamTable current = bias_params;
-    std::memcpy(current.defaults.data(), &bias, sizeof bias);
+    const ParamTable current = bias_table(bias);
     ParamBlock block(current);
     set_param(block, name, value, where);
     bias = block.as<GnBias>();

@@ -6,6 +6,8 @@
 
 namespace gn {
 
+/// The rows of GnBias with these values for defaults.
+ParamTable bias_table(const GnBias& bias);
 /// The text without blanks around it.
 std::string_view without_blanks(std::string_view text);
 /// Sets a top-level key; false when there is no such key. Throws Error naming `where`, the key, and what would be valid.
