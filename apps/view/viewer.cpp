@@ -154,7 +154,7 @@ void Viewer::draw_viewports(VkCommandBuffer commands) {
 }
 
 void Viewer::draw_window(VkCommandBuffer commands, uvec2 size, std::optional<std::uint32_t> image) {
-    if (picture_ == nullptr || !is_made_as(*picture_, window_picture(size))) {
+    if (picture_ == nullptr || !serves(picture_->desc(), window_picture(size))) {
         frames_.retire(std::exchange(picture_, std::make_shared<Texture2D>(device_, window_picture(size))));
     }
     FrameGraph graph(device_);

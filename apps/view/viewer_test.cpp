@@ -6,11 +6,14 @@
 #include "apps/view/panel.h"
 #include "gpu/presenting.h"
 #include "shadow/shading/tonemap.h"
+#include "tests/thorough.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,11 +28,6 @@
 
 namespace gn {
 namespace {
-
-/// More frames where time is no matter.
-bool thorough() {
-    return std::getenv("GNOMON_THOROUGH") != nullptr;
-}
 
 Device& device() {
     static const std::unique_ptr<Device> made = Device::create({.validation = true});
@@ -116,7 +114,7 @@ TEST_F(ViewerTest, DrawsTheCourtyardInFourViewportsAndThenCreatesNothing) {
         fly();
     }
     const Counters steady = device().counters();
-    const int frames = thorough() ? 200 : 12;
+    const int frames = test::thorough() ? 200 : 12;
     for (int i = 0; i < frames; ++i) {
         fly();
         ASSERT_EQ(device().counters(), steady) << "frame " << viewer.frames_drawn();
@@ -129,7 +127,7 @@ TEST_F(ViewerTest, DrawsTheCourtyardInFourViewportsAndThenCreatesNothing) {
 }
 
 TEST_F(ViewerTest, TwoThousandFramesTakeNoMemory) {
-    if (!thorough()) {
+    if (!test::thorough()) {
         GTEST_SKIP() << "make measure draws 2,000 frames";
     }
     Viewer viewer(device(), setup_of("slab", {"pcf,resolution=256", "evsm2,resolution=256"}), nullptr);
@@ -273,6 +271,27 @@ TEST_F(ViewerTest, HoldsARecipeAgainstAnother) {
     EXPECT_EQ(device().counters(), steady);
 }
 
+/// What the display server of this number answers to a client that greets it: nothing where it takes it, or its reason.
+std::string refusal_of_display(int number) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string path = "/tmp/.X11-unix/X" + std::to_string(number);
+    std::copy(path.begin(), path.end(), std::begin(address.sun_path));
+    const int end = socket(AF_UNIX, SOCK_STREAM, 0);
+    std::string reason = path + " takes no connection";
+    if (connect(end, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+        // Byte order, version 11.0, no authorization: 12 bytes; the answer starts with 1 where the client is taken.
+        constexpr std::array<unsigned char, 12> greeting{'l', 0, 11};
+        std::array<unsigned char, 8> answer{};
+        const bool spoken = write(end, greeting.data(), greeting.size()) == ssize_t(greeting.size());
+        reason = !spoken || read(end, answer.data(), answer.size()) != ssize_t(answer.size())
+                     ? path + " closes a connection"
+                     : (answer[0] == 1 ? "" : path + " refuses a client");
+    }
+    close(end);
+    return reason;
+}
+
 /// A display server of its own, as long as a test.
 class DisplayServer {
   public:
@@ -288,7 +307,7 @@ class DisplayServer {
             // It ends with this process, and not with its last client: one that only looks for a display must not end it.
             prctl(PR_SET_PDEATHSIG, SIGTERM);
             execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24", "-nolisten", "tcp",
-                   nullptr);
+                   "-noreset", "-ac", nullptr);
             _exit(127);
         }
         close(ends[1]);
@@ -296,8 +315,7 @@ class DisplayServer {
         const ssize_t count = read(ends[0], text.data(), text.size() - 1);
         close(ends[0]);
         if (count > 0) {
-            setenv("DISPLAY", (":" + std::to_string(std::atoi(text.data()))).c_str(), 1);
-            runs_ = true;
+            await(std::atoi(text.data()));
         }
     }
     ~DisplayServer() {
@@ -309,17 +327,29 @@ class DisplayServer {
     }
     DisplayServer(const DisplayServer&) = delete;
     DisplayServer& operator=(const DisplayServer&) = delete;
-    [[nodiscard]] bool runs() const { return runs_; }
+    /// Why no window can be opened on it; nothing where one can.
+    [[nodiscard]] const std::string& missing() const { return missing_; }
 
   private:
+    /// A machine may let the server start and keep its clients from it: ten seconds of refusals say so.
+    void await(int number) {
+        for (int tries = 0; tries < 100 && !missing_.empty(); ++tries) {
+            missing_ = refusal_of_display(number);
+            if (!missing_.empty()) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            }
+        }
+        setenv("DISPLAY", (":" + std::to_string(number)).c_str(), 1);
+    }
+
     pid_t pid_ = -1;
-    bool runs_ = false;
+    std::string missing_ = "no Xvfb runs on this machine";
 };
 
 TEST(ViewerWindow, OpensDrawsResizesAndCloses) {
     const DisplayServer display;
-    if (!display.runs()) {
-        GTEST_SKIP() << "no Xvfb on this machine: no window was opened";
+    if (!display.missing().empty()) {
+        GTEST_SKIP() << "no window was opened: " << display.missing();
     }
     ViewSetup setup = setup_of("slab", {"hard,resolution=256"});
     setup.window = Size{480, 270};

@@ -25,15 +25,6 @@ TextureDesc shown_desc(uint width, uint height) {
             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
 }
 
-}  // namespace
-
-bool is_made_as(const Texture2D& texture, TextureDesc desc) {
-    desc.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return texture.desc() == desc;
-}
-
-namespace {
-
 /// A picture of the hidden as a texture: display-ready values.
 Texture2D texture_of(Device& device, const Image& picture) {
     std::vector<std::uint8_t> texels(4 * picture.pixels(), 255);
@@ -221,7 +212,7 @@ void Viewport::answer(FrameGraph& graph, const ViewSamples& samples, TextureHand
 
 void Viewport::make_shown() {
     const TextureDesc desc = shown_desc(width, height);
-    if (shown_ == nullptr || (show.empty() && !is_made_as(*shown_, desc))) {
+    if (shown_ == nullptr || (show.empty() && !serves(shown_->desc(), desc))) {
         frames_.retire(std::exchange(shown_, std::make_shared<Texture2D>(device_, desc)));
     }
 }

@@ -62,9 +62,6 @@ class LiveRecipe {
     std::shared_ptr<History> history_;
 };
 
-/// Whether a texture is the one that would be made: all of them can be copied from and to, whatever was asked for.
-bool is_made_as(const Texture2D& texture, TextureDesc desc);
-
 class Viewport {
   public:
     Viewport(Device& device, World& world, const ViewportSetup& setup, std::uint32_t frames_in_flight);

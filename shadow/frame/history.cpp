@@ -7,12 +7,13 @@ namespace {
 /// Frames that a host may have in flight (gpu/frames.h).
 constexpr std::uint64_t most_in_flight = 8;
 
-bool same(const TextureDesc& a, const TextureDesc& b) {
-    return a.format == b.format && a.width == b.width && a.height == b.height && a.layers == b.layers &&
-           a.mips == b.mips && a.samples == b.samples && (b.usage & ~a.usage) == 0;
-}
-
 }  // namespace
+
+bool serves(const TextureDesc& held, const TextureDesc& wanted) {
+    return held.format == wanted.format && held.width == wanted.width && held.height == wanted.height &&
+           held.layers == wanted.layers && held.mips == wanted.mips && held.samples == wanted.samples &&
+           (wanted.usage & ~held.usage) == 0;
+}
 
 void History::advance() {
     for (auto& [name, kept] : textures_) {
@@ -51,7 +52,7 @@ void History::clear() {
 
 Texture2D& History::texture(const TextureDesc& desc, bool& fresh) {
     KeptTexture& kept = textures_[desc.name];
-    if (kept.texture.vk() == VK_NULL_HANDLE || !same(kept.texture.desc(), desc)) {
+    if (kept.texture.vk() == VK_NULL_HANDLE || !serves(kept.texture.desc(), desc)) {
         drop(std::move(kept.texture));
         kept = {Texture2D(device_, desc)};
     }
@@ -62,7 +63,7 @@ Texture2D& History::texture(const TextureDesc& desc, bool& fresh) {
 
 History::Pair History::pair(const TextureDesc& desc) {
     KeptPair& held = pairs_[desc.name];
-    if (held.textures[0].vk() == VK_NULL_HANDLE || !same(held.textures[0].desc(), desc)) {
+    if (held.textures[0].vk() == VK_NULL_HANDLE || !serves(held.textures[0].desc(), desc)) {
         for (Texture2D& texture : held.textures) {
             drop(std::move(texture));
         }

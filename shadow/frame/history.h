@@ -13,6 +13,9 @@
 
 namespace gn {
 
+/// Whether a texture can be used as the one that is wanted, whatever its name and what else it is used for.
+bool serves(const TextureDesc& held, const TextureDesc& wanted);
+
 class History {
   public:
     explicit History(Device& device) : device_(device) {}
