@@ -4,6 +4,7 @@
 // Based on: Brabec, Annen, Seidel. Practical Shadow Mapping. Journal of Graphics Tools 2002. [BAS02b]
 #include "shadow/placement/light_views.h"
 
+#include "shadow/geometry/convex_hull.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/faces.glsl"
 
@@ -20,24 +21,6 @@ struct Rectangle {
 
 double cross2(dvec2 a, dvec2 b) {
     return a.x * b.y - a.y * b.x;
-}
-
-/// Andrew's monotone chain.
-std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
-    std::sort(points.begin(), points.end(), [](dvec2 a, dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    std::vector<dvec2> hull;
-    for (int side = 0; side < 2; ++side) {
-        const std::size_t start = hull.size();
-        for (const dvec2 p : points) {
-            while (hull.size() >= start + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) {
-                hull.pop_back();
-            }
-            hull.push_back(p);
-        }
-        hull.pop_back();
-        std::reverse(points.begin(), points.end());
-    }
-    return hull;
 }
 
 Rectangle bounds_along(const std::vector<dvec2>& points, dvec2 axis) {
@@ -273,7 +256,8 @@ std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& vie
     // Before the near plane everything casts; behind the far plane nothing. The rectangle is extended a little: rounding
     // moves vertices by less than a texel.
     const dmat4 rows = glm::transpose(dmat4(view.cs_from_ws));
-    const double border = 1 + 4.0 / static_cast<double>(view.resolution);
+    const vec2 texels = vec2(view.rect_ts.z, view.rect_ts.w) * view.resolution;
+    const double border = 1 + 4.0 / static_cast<double>(std::min(texels.x, texels.y));
     const dvec4 w = border * rows[3];
     std::vector<dvec4> inside{dvec4(0, 0, 0, 1 + 1e-3) - dvec4(view.depth_from_ws)};
     for (int axis = 0; axis < 2; ++axis) {
@@ -291,7 +275,7 @@ std::vector<std::uint32_t> casters_of(const Scene& scene, const GnLightView& vie
                         [&](const dvec4& plane) {
                             return glm::dot(plane, centre) + glm::dot(glm::abs(dvec3(plane)), half) >= 0;
                         }) &&
-            (least <= 0 || texels_across(rows, box_ws, view.resolution) >= static_cast<double>(least))) {
+            (least <= 0 || texels_across(rows, box_ws, std::max(texels.x, texels.y)) >= static_cast<double>(least))) {
             casters.push_back(static_cast<std::uint32_t>(i));
         }
     }

@@ -4,9 +4,12 @@
 // Based on: Zhang, Sun, Xu, Lun. Parallel-Split Shadow Maps for Large-scale Virtual Environments. VRCIA 2006. [ZSXL06]
 #include "shadow/placement/cascades/cascade_views.h"
 
+#include "shadow/geometry/visible_objects.h"
 #include "shadow/placement/cascades/cascades.glsl"
+#include "shadow/placement/shelf.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gn::cascades {
 namespace {
@@ -41,7 +44,8 @@ Interval range_of(const FrameInput& input, const GnCascadesParams& params) {
         return range;
     }
     if (params.fit == GN_FIT_STABLE && params.split < GN_SPLIT_SDSM_MINMAX) {
-        return stable_range(input, params, range);
+        range = stable_range(input, params, range);
+        return params.far == GN_FAR_OBJECTS ? stable_cut(input, range) : range;
     }
     // The potential receivers' own range.
     const ConvexBody body = potential_receivers(input, range.near, range.far);
@@ -51,6 +55,9 @@ Interval range_of(const FrameInput& input, const GnCascadesParams& params) {
         const double eye = glm::dot(forward, dvec3(camera.position_ws));
         range.near = std::clamp(along.near - eye, range.near, range.far);
         range.far = std::clamp(along.far - eye, 1.001 * range.near, range.far);
+    }
+    if (params.far == GN_FAR_OBJECTS) {
+        range.far = std::clamp(farthest_seen(input, range.near, range.far), 1.001 * range.near, range.far);
     }
     return range;
 }
@@ -68,6 +75,33 @@ std::vector<Interval> slices_of(const GnCascadesParams& params, Interval range) 
         slices.push_back({(1 - 1e-5) * (end(i) - band), (1 + 1e-5) * end(i + 1)});
     }
     return slices;
+}
+
+int side_of(const GnCascadesParams& params, int resolution, std::size_t i) {
+    return resolution >> glsl::gn_cascades_halvings(static_cast<int>(i), params.count, params.falloff);
+}
+
+uint packed_halvings(const GnCascadesParams& params) {
+    uint packed = 0;
+    for (int i = 0; i < params.count; ++i) {
+        packed |= static_cast<uint>(glsl::gn_cascades_halvings(i, params.count, params.falloff)) << (4 * i);
+    }
+    return packed;
+}
+
+void put_into_layers(const GnCascadesParams& params, int resolution, LightViews& views) {
+    const auto halved = [&](std::size_t i) {
+        return glsl::gn_cascades_halvings(static_cast<int>(i), params.count, params.falloff);
+    };
+    std::vector<std::size_t> order(views.views.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return halved(a) < halved(b); });
+    Shelf shelf{halved(order.back())};
+    for (const std::size_t i : order) {
+        shelf.put(views.views[i], halved(i));
+        views.views[i].resolution = static_cast<float>(resolution);
+    }
+    views.layers = static_cast<std::uint32_t>(views.views[order.back()].layer) + 1;
 }
 
 LightFrame facing(const Camera& camera, const GnLight& light) {
@@ -141,6 +175,7 @@ GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const
                         .width = params.width,
                         .near = static_cast<float>(range.near)};
     data.limit = views.empty() ? 1.0F : 1.0F - 2.0F * std::min(0.4F, guard.texels / views[0].resolution);
+    data.halved = packed_halvings(params);
     data.x_ws = vec4(vec3(frame.x), 0);
     data.y_ws = vec4(vec3(frame.y), 0);
     for (std::size_t i = 0; i < views.size(); ++i) {

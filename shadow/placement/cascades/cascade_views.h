@@ -21,9 +21,20 @@ Interval range_of(const FrameInput& input, const GnCascadesParams& params);
 
 /// Of stable cascades: what can be seen within `range`, however the camera turns and moves by a little.
 Interval stable_range(const FrameInput& input, const GnCascadesParams& params, Interval range);
+/// The same ended at the farthest object that is seen, in steps of half an octave so that windows keep their size until it
+/// lies nearer or farther by that much.
+Interval stable_cut(const FrameInput& input, Interval range);
 
 /// The slice of each cascade: from its split backwards by the band of the transition before it.
 std::vector<Interval> slices_of(const GnCascadesParams& params, Interval range);
+
+/// Texels along a side of map `i`.
+int side_of(const GnCascadesParams& params, int resolution, std::size_t i);
+/// How often each is halved, as GnCascadesData packs it.
+uint packed_halvings(const GnCascadesParams& params);
+/// Packs the maps, which know only their own size so far, into as few layers of `resolution` as hold them; sets layers,
+/// rectangles and the number of layers.
+void put_into_layers(const GnCascadesParams& params, int resolution, LightViews& views);
 
 /// Two axes of the light's plane, for bounding boxes: x along what the camera looks at.
 struct LightFrame {
@@ -89,6 +100,13 @@ GnLightView loose_view(const Grid& grid, dvec3 centre_ws);
 /// What the choice function is given.
 GnCascadesData choice_data(const GnCascadesParams& params, Interval range, const LightFrame& frame,
                            std::span<const GnLightView> views, Guard guard);
+
+/// Whether splits and views are made of the view samples.
+inline bool by_samples(const GnCascadesParams& params) {
+    return params.split >= GN_SPLIT_SDSM_MINMAX;
+}
+/// The sentence why a recipe's cascades cannot serve a light, or "".
+std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe);
 
 /// SDSM: splits and views made on the GPU from the view samples of this frame.
 LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params);

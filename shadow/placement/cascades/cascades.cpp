@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Several maps for one sun: the view is split along its axis, each slice has a layer of its own.
 // Also here: cascade_views.h, cascade_views.cpp (slices and the views around them), stable.cpp (windows of a fixed grid),
-// keep.cpp (maps kept over frames), sdsm.h, sdsm.cpp (splits and views from the samples), its passes sdsm_steps.glsl,
-// sdsm_samples.glsl, sdsm_distances.glsl, sdsm_splits.glsl, sdsm_bounds.glsl, sdsm_views.glsl; tests: stable_test.cpp,
-// warped_test.cpp, sdsm_test.cpp, picture_test.cpp.
+// keep.cpp (maps kept over frames), refusals.cpp (what it cannot do), sdsm.h, sdsm.cpp (splits and views from the samples),
+// its passes sdsm_steps.glsl, sdsm_samples.glsl, sdsm_distances.glsl, sdsm_splits.glsl, sdsm_bounds.glsl, sdsm_views.glsl;
+// tests: stable_test.cpp, warped_test.cpp, far_test.cpp, falloff_test.cpp, mask_test.cpp, sdsm_test.cpp, picture_test.cpp.
 //
 // Based on: Zhang, Sun, Xu, Lun. Parallel-Split Shadow Maps for Large-scale Virtual Environments. VRCIA 2006. [ZSXL06]
 #include "shadow/placement/cascades/cascade_views.h"
+#include "shadow/placement/receiver_mask.h"
 #include "shadow/placement/warp.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace gn {
 namespace {
 
 using namespace cascades;
-
-bool by_samples(const GnCascadesParams& params) {
-    return params.split >= GN_SPLIT_SDSM_MINMAX;
-}
 
 /// Logarithms answer pixels that grow with the distance. An orthographic camera's do not: even lengths are even errors.
 GnCascadesParams params_of(const FrameInput& input, const Recipe& recipe) {
@@ -33,23 +29,28 @@ GnCascadesParams params_of(const FrameInput& input, const Recipe& recipe) {
 /// Passes cost nothing on a CPU, where a layered one draws every caster into every layer; GPUs prefer one pass.
 bool layered(const Device& device, const GnCascadesParams& params) {
     const bool wanted = params.passes == GN_PASSES_LAYERED || (params.passes == GN_PASSES_AUTO && !device.info().cpu);
-    return wanted && device.has(Feature::layer_from_vertex_shader);
+    return wanted && packed_halvings(params) == 0 && device.has(Feature::layer_from_vertex_shader);
 }
 
 /// One slice's receivers: their box, rectangle of least area, or warped map. `near` is the share of the slice's depth that
 /// does not steer a warp.
-GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit, double near) {
+GnLightView tight_view(const FrameInput& input, const Recipe& recipe, const ConvexBody& body, int fit, int side,
+                       double near) {
     const GnLight& light = input.light().shape;
     const Guard guard = guard_of(input, recipe);
     if (fit == GN_FIT_PLAIN) {
-        return plain_view(body, facing(input.samples.camera, light), recipe.resolution, guard);
+        return plain_view(body, facing(input.samples.camera, light), side, guard);
     }
-    const GnLightView fitted = fit_orthographic(body, light, recipe.resolution, guard);
+    const GnLightView fitted = fit_orthographic(body, light, side, guard);
     if (fit != GN_FIT_WARPED) {
         return fitted;
     }
-    const auto plane = warp::plane_of(input, body, fitted, recipe, near);
-    return plane ? warp::even_view(*plane, 0) : fitted;
+    auto plane = warp::plane_of(input, body, fitted, recipe, near);
+    if (!plane) {
+        return fitted;
+    }
+    plane->share = std::min(0.4, static_cast<double>(guard.texels) / side);
+    return warp::even_view(*plane, 0);
 }
 
 /// Views around the receivers of each slice.
@@ -63,7 +64,8 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
         }
         // One pseudo-near plane for the whole view; a tenth of a slice at most.
         const double near = std::min(warp::usual_near * std::max(slices.back().far / slice.far, 1.0), 0.1);
-        views.views.push_back(tight_view(input, recipe, body, params.fit, near));
+        const int side = side_of(params, recipe.resolution, views.views.size());
+        views.views.push_back(tight_view(input, recipe, body, params.fit, side, near));
     }
 
     // A receiver may be served by a cascade of another slice: then all share one range of depths.
@@ -74,7 +76,7 @@ void add_tight_views(const FrameInput& input, const Recipe& recipe, const GnCasc
         for (const GnLightView& view : views.views) {
             const double least = std::min(glm::length(dvec3(row_of(view.cs_from_ws, 0))),
                                           glm::length(dvec3(row_of(view.cs_from_ws, 1))));
-            texel = std::max(texel, 2 / least / recipe.resolution);
+            texel = std::max(texel, 2 / least / static_cast<double>(view.resolution));
         }
         const Interval depth =
             with_slack(extent_of(all, dvec3(vec3(light.direction_ws))), guard_of(input, recipe), texel, 0);
@@ -94,13 +96,29 @@ std::vector<Window> add_stable_views(const FrameInput& input, const Recipe& reci
     std::vector<Window> windows;
     for (const Interval& slice : slices) {
         const Sphere sphere = sphere_around(slice, camera, aspect);
-        const Grid grid =
-            grid_of(sphere, input.light().shape, scene_ws, recipe.resolution, guard_of(input, recipe), spare);
+        const int side = side_of(params, recipe.resolution, views.views.size());
+        const Grid grid = grid_of(sphere, input.light().shape, scene_ws, side, guard_of(input, recipe), spare);
         const dvec3 centre = dvec3(camera.position_ws) + sphere.centre * glm::normalize(dvec3(camera.forward_ws));
         windows.push_back({grid, centre});
         views.views.push_back(params.snap != 0 ? view_of(grid, window_around(grid, centre)) : loose_view(grid, centre));
     }
     return windows;
+}
+
+/// Of each view's casters leaves those that can fall onto what is seen of its slice.
+void mask_casters(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
+                  std::span<const Interval> slices, LightViews& views) {
+    const Camera& camera = input.samples.camera;
+    const Guard guard = guard_of(input, recipe);
+    const bool any = params.select == GN_SELECT_PROJECTION;
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        // The first map also serves what lies before its slice, the last what lies beyond.
+        const double near = any || i == 0 ? static_cast<double>(camera.near) : slices[i].near;
+        const double far = any || i + 1 == slices.size() ? static_cast<double>(camera.far) : slices[i].far;
+        const GnLightView& view = views.views[i];
+        views.casters[i] =
+            casters_on_receivers(input, view, with_bias(guard, recipe.bias, view), near, far, views.casters[i]);
+    }
 }
 
 LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
@@ -112,7 +130,6 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     }
     LightViews views;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
-    views.layers = static_cast<std::uint32_t>(params.count);
     views.layered = layered(input.device, params);
 
     // Split the view, and look at each slice.
@@ -124,9 +141,7 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     } else {
         add_tight_views(input, recipe, params, slices, views);
     }
-    for (std::size_t i = 0; i < views.views.size(); ++i) {
-        views.views[i].layer = static_cast<int>(i);
-    }
+    put_into_layers(params, recipe.resolution, views);
     // Where one map is warped, all get their depth from fragments.
     views.kind = kind_of(views.views);
     if (!windows.empty() && input.history != nullptr && (params.scroll != 0 || params.rate > 1)) {
@@ -136,6 +151,9 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     // Cull the casters of each view; tell the choice function.
     for (const GnLightView& view : views.views) {
         views.casters.push_back(casters_of(input.scene, view, params.least_caster));
+    }
+    if (params.mask != 0) {
+        mask_casters(input, recipe, params, slices, views);
     }
     views.set_data(choice_data(params, range, facing(input.samples.camera, input.light().shape), views.views,
                                guard_of(input, recipe)));
@@ -149,39 +167,14 @@ std::string known_cascades(const Recipe& recipe) {
         params.count, params.select, params.transition);
 }
 
-std::string refuses_cascades(const Scene&, const Light&, const Recipe& recipe) {
-    const auto params = recipe.of<GnCascadesParams>("cascades");
-    const bool kept = params.scroll != 0 || params.rate > 1;
-    if (kept && (by_samples(params) || params.fit != GN_FIT_STABLE)) {
-        return "cascades.scroll and cascades.rate keep maps over frames, which only stable windows allow; use "
-               "cascades.fit=stable with a split other than sdsm-minmax and sdsm-histogram";
-    }
-    if (params.least_caster > 0 && by_samples(params)) {
-        return "cascades.least_caster measures casters by the texels of a map, which splits by samples make on the "
-               "device; use "
-               "another cascades.split than sdsm-minmax and sdsm-histogram";
-    }
-    if (params.fit == GN_FIT_WARPED && !by_samples(params) && params.select == GN_SELECT_PROJECTION) {
-        return "cascades.select=projection asks which rectangle holds a receiver, and warped maps are none; use "
-               "cascades.select=distance, or cascades.fit=plain, fitted or stable";
-    }
-    if (kept && params.snap == 0) {
-        return "cascades.scroll and cascades.rate keep maps over frames, which only windows on whole texels allow; use "
-               "cascades.snap=1";
-    }
-    if (kept && !std::has_single_bit(static_cast<unsigned>(recipe.resolution))) {
-        return fmt::format(
-            "cascades.scroll and cascades.rate keep whole texels exactly only at a resolution that is a "
-            "power of two, not {}; use {}",
-            recipe.resolution, std::bit_ceil(static_cast<unsigned>(recipe.resolution)));
-    }
-    return {};
-}
-
 std::vector<ParamRow> split_rows() {
     return {
         GN_PARAM(GnCascadesParams, count, integer, 1, GN_CASCADES_MOST, "",
                  "More slices, each with a map of its own: finer texels, and memory and time in proportion."),
+        GN_PARAM(
+            GnCascadesParams, falloff, real, -2, 2, "halvings",
+            "Halves the side of the maps so many times from one to the next, away from the camera, or below 0 towards "
+            "it; smaller maps share layers: less memory and time, and texels that much coarser there."),
         GN_CHOICE(GnCascadesParams, split,
                   "Where the view is split: from even lengths to even perspective error, or from the samples seen.",
                   "uniform", "log", "practical", "adapted-near", "sdsm-minmax", "sdsm-histogram"),
@@ -195,6 +188,11 @@ std::vector<ParamRow> split_rows() {
             GnCascadesParams, distance, real, 0, 1e9, "m",
             "End of the last slice, beyond which nothing is shadowed: nearer ones make all texels finer; 0 reaches "
             "as far as the scene."),
+        GN_CHOICE(GnCascadesParams, far,
+                  "What ends the last slice: the bounds of the scene, or the farthest object that is seen, by its own "
+                  "bounds; then all texels are finer where the view is blocked, and stable windows change their size "
+                  "whenever that end has moved by half an octave.",
+                  "scene", "objects"),
     };
 }
 
@@ -230,6 +228,10 @@ ParamTable rows() {
                  "Leaves an object out of every map on which its bounds span fewer texels than this, to the longer "
                  "side: far "
                  "maps draw less, and shadows that thin are missing there."),
+        GN_PARAM(
+            GnCascadesParams, mask, boolean, 0, 1, "",
+            "Leaves an object out of every map in which it falls onto nothing that the camera sees of the slice: the "
+            "same V, fewer objects drawn, and some work on the CPU; for kernels that read the depth map itself."),
     };
     all.insert(all.end(), more.begin(), more.end());
     return param_table<GnCascadesParams>(std::move(all));
@@ -253,7 +255,7 @@ const Part& placement_cascades() {
         p.glsl = "shadow/placement/cascades/cascades.glsl";
         p.place = place_cascades;
         p.prologue = known_cascades;
-        p.refuses = refuses_cascades;
+        p.refuses = cascades::refuses;
         return p;
     }();
     return part;

@@ -75,6 +75,18 @@ GN_FN float gn_cascades_border(GnCascadesData data, int i, vec3 p_ws) {
     return max(abs(fit.x * (c * p_ls.x + s * p_ls.y) + fit.z), abs(fit.y * (c * p_ls.y - s * p_ls.x) + fit.w));
 }
 
+// How often the side of map `i` of `count` is halved: a geometric row of sizes, away from the camera or towards it.
+GN_FN int gn_cascades_halvings(int i, int count, float falloff) {
+    float steps = falloff < 0.0f ? float(count - 1 - i) : float(i);
+    return int(floor(steps * abs(falloff) + 1.0e-4f));
+}
+
+// Clip units up to which map i holds a receiver and its kernel, which is a larger share of a smaller map.
+GN_FN float gn_cascades_limit(GnCascadesData data, int i) {
+    uint halvings = (data.halved >> uint(4 * i)) & 15u;
+    return halvings == 0u ? data.limit : 1.0f - min(0.8f, (1.0f - data.limit) * float(1u << halvings));
+}
+
 // Weight of the next cascade where `position` runs from 0 to 1 through a cascade: 0 before the band, 1 at its end.
 GN_FN float gn_cascades_band(float position, float width) {
     return width > 0.0f ? clamp((position - (1.0f - width)) / width, 0.0f, 1.0f) : 0.0f;
@@ -118,13 +130,12 @@ GN_FN GnCascadesPlace gn_cascades_by_distance(GnCascadesData data, int count, fl
 
 // The first cascade that holds the receiver and its kernel has the finest texels.
 GN_FN GnCascadesPlace gn_cascades_by_projection(GnCascadesData data, int count, vec3 p_ws) {
-    float limit = data.limit;
     int i = 0;
-    float position = gn_cascades_border(data, 0, p_ws) / limit;
+    float position = gn_cascades_border(data, 0, p_ws) / gn_cascades_limit(data, 0);
     float beyond = 0.0f;
     for (int k = 1; k < GN_CASCADES_MOST; ++k) {
         if (k < count && k == i + 1) {
-            beyond = gn_cascades_border(data, k, p_ws) / limit;
+            beyond = gn_cascades_border(data, k, p_ws) / gn_cascades_limit(data, k);
             if (position > 1.0f) {
                 i = k;
                 position = beyond;

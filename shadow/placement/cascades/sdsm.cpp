@@ -18,7 +18,8 @@
 namespace gn::cascades {
 namespace {
 
-GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params) {
+GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, const GnCascadesParams& params,
+                             const LightViews& views) {
     const Camera& camera = input.samples.camera;
     const LightFrame frame = facing(camera, input.light().shape);
     const Guard guard = guard_of(input, recipe);
@@ -36,6 +37,11 @@ GnSdsmConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     u.near = camera.near;
     u.far = camera.far;
     u.resolution = static_cast<float>(recipe.resolution);
+    u.halved = packed_halvings(params);
+    for (std::size_t i = 0; i < views.views.size(); ++i) {
+        u.rects_ts[i] = views.views[i].rect_ts;
+        u.layers[i] = views.views[i].layer;
+    }
     u.guard_texels = guard.texels;
     u.guard_metres = guard.metres;
     u.guard_before = guard.before;
@@ -70,7 +76,7 @@ void add_pass(const FrameInput& input, const GnSdsmConstants& constants, BufferH
 
 /// What may cast into any view that the samples can choose: their rectangle at every turn lies within that of the
 /// receivers at this turn.
-std::vector<std::uint32_t> possible_casters(const FrameInput& input, const Recipe& recipe) {
+std::vector<std::uint32_t> possible_casters(const FrameInput& input, const Recipe& recipe, int least_side) {
     const ConvexBody body = potential_receivers(input);
     if (body.empty()) {
         return {};
@@ -81,7 +87,7 @@ std::vector<std::uint32_t> possible_casters(const FrameInput& input, const Recip
     std::set<std::uint32_t> casters;
     for (int turn = 0; turn < GN_SDSM_TURNS; ++turn) {
         const double angle = std::numbers::pi / 2 * turn / GN_SDSM_TURNS;
-        const GnLightView view = plain_view(body, turned(frame, angle), recipe.resolution, guard);
+        const GnLightView view = plain_view(body, turned(frame, angle), least_side, guard);
         const std::vector<std::uint32_t> some = casters_of(input.scene, view);
         casters.insert(some.begin(), some.end());
     }
@@ -96,17 +102,14 @@ LightViews place_by_samples(const FrameInput& input, const Recipe& recipe, const
     LightViews views;
     views.kind = ViewKind::affine;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
-    views.layers = static_cast<std::uint32_t>(params.count);
     views.buffer = graph.create({.name = "cascade views", .bytes = count * sizeof(GnLightView)});
     views.data_buffer = graph.create({.name = "cascade choice", .bytes = sizeof views.data});
-    for (std::size_t i = 0; i < count; ++i) {
-        GnLightView view;
-        view.resolution = static_cast<float>(recipe.resolution);
-        view.layer = static_cast<int>(i);
-        views.views.push_back(view);
-    }
-    views.casters.assign(count, possible_casters(input, recipe));
-    const GnSdsmConstants constants = constants_of(input, recipe, params);
+    views.views.resize(count);
+    put_into_layers(params, recipe.resolution, views);
+    const int least_side =
+        std::min(side_of(params, recipe.resolution, 0), side_of(params, recipe.resolution, count - 1));
+    views.casters.assign(count, possible_casters(input, recipe, least_side));
+    const GnSdsmConstants constants = constants_of(input, recipe, params, views);
     const BufferHandle reduction = graph.create({.name = "sample distribution", .bytes = sizeof(GnSdsmReduction)});
     ShaderInputs samples;
     add_gbuffer(samples, input.device, input.samples);

@@ -22,7 +22,10 @@ struct GnSdsmConstants {
     uvec2 size GN_DEFAULT(uvec2(0));  ///< of the view, pixels
     float near GN_DEFAULT(0.0f);      ///< of the camera: the histogram's range
     float far GN_DEFAULT(0.0f);
-    float resolution GN_DEFAULT(0.0f);  ///< texels
+    float resolution GN_DEFAULT(0.0f);               ///< texels
+    uint halved GN_DEFAULT(0u);                      ///< as in GnCascadesData
+    vec4 rects_ts[GN_CASCADES_MOST] GN_DEFAULT({});  ///< of each map in its layer
+    int layers[GN_CASCADES_MOST] GN_DEFAULT({});
     float guard_texels GN_DEFAULT(0.0f);
     float guard_metres GN_DEFAULT(0.0f);
     float guard_before GN_DEFAULT(0.0f);

@@ -40,16 +40,20 @@ vec2 half_sides(int i, int turn, float share) {
 
 void main() {
     int count = u.params.count;
-    float share = min(0.4, u.guard_texels / u.resolution);
     placement.count = count;
     placement.transition = u.params.transition;
     placement.select = u.params.select;
     placement.width = u.params.width;
     placement.near = r.ends[0];
-    placement.limit = 1.0 - 2.0 * share;
+    placement.limit = 1.0 - 2.0 * min(0.4, u.guard_texels / u.resolution);
+    placement.halved = u.halved;
     placement.x_ws = vec4(u.x_ws.xyz, 0.0);
     placement.y_ws = vec4(u.y_ws.xyz, 0.0);
     for (int i = 0; i < count; ++i) {
+        // A kernel is a larger share of a smaller map.
+        float side = u.rects_ts[i].z * u.resolution;
+        float share = min(0.4, u.guard_texels / side);
+
         // The turn of least area.
         int turn = 0;
         vec2 h = half_sides(i, 0, share);
@@ -67,7 +71,7 @@ void main() {
         vec2 b = span(i, turn + GN_SDSM_TURNS);
         vec2 centre = 0.5 * vec2(a.x + a.y, b.x + b.y);
         vec2 depth = depths(i);
-        float slack = 5.0e-4 * (depth.y - depth.x) + u.guard_metres + (2.0 + 2.0 * u.guard_texels) * 2.0 * max(h.x, h.y) / u.resolution;
+        float slack = 5.0e-4 * (depth.y - depth.x) + u.guard_metres + (2.0 + 2.0 * u.guard_texels) * 2.0 * max(h.x, h.y) / side;
         // Towards the light as far as a lookup asks how far away casters are.
         float near = depth.x - slack - u.guard_before;
         float metres = depth.y + slack - near;
@@ -81,11 +85,11 @@ void main() {
         vec3 corner_ws = u.eye_ws.xyz + right_ws.xyz * centre.x + down_ws.xyz * centre.y + u.z_ws.xyz * near;
         view.ws_from_cs = mat4(vec4(right_ws.xyz * h.x, 0.0), vec4(down_ws.xyz * h.y, 0.0),
                                vec4(u.z_ws.xyz * metres, 0.0), vec4(corner_ws, 1.0));
-        view.rect_ts = vec4(0.0, 0.0, 1.0, 1.0);
+        view.rect_ts = u.rects_ts[i];
         view.eye_ws = vec4(-u.z_ws.xyz, 0.0);
         view.metres_per_depth = metres;
         view.resolution = u.resolution;
-        view.layer = i;
+        view.layer = u.layers[i];
         view.grid = 0.0;
         view.paraboloid = 0.0;
         views[i] = view;

@@ -4,6 +4,7 @@
 // Based on: Valient. Stable Rendering of Cascaded Shadow Maps. ShaderX6 2008. [Val08]
 // Departs from it: the grid is fixed to the world to 1/256 of a texel by gn_clip, not only to rounding; a window that would
 // be wider than the scene stands still around the scene instead.
+#include "shadow/geometry/visible_objects.h"
 #include "shadow/placement/cascades/cascade_views.h"
 
 #include <algorithm>
@@ -75,6 +76,16 @@ Interval stable_range(const FrameInput& input, const GnCascadesParams& params, I
     const SceneWindow window = scene_window(input.light().shape, box_ws);
     const double wide = 1.001 * std::max(window.half.x, window.half.y) / std::sqrt(corner_slope(camera, aspect));
     range.far = std::clamp(wide, 1.001 * range.near, range.far);
+    return range;
+}
+
+Interval stable_cut(const FrameInput& input, Interval range) {
+    const double unit = static_cast<double>(seen_bounds(input).diagonal());
+    const double seen = farthest_seen(input, range.near, range.far);
+    if (unit > 0 && seen > range.near) {
+        const double reach = unit * std::exp2(0.5 * std::ceil(2 * std::log2(seen / unit)));
+        range.far = std::clamp(reach, 1.001 * range.near, range.far);
+    }
     return range;
 }
 

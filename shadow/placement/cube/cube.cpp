@@ -9,6 +9,7 @@
 #include "shadow/geometry/convex_body.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/light_views.h"
+#include "shadow/placement/shelf.h"
 #include "shadow/recipe/guard.h"
 #include "shadow/scene/clusters.h"
 
@@ -91,27 +92,6 @@ std::array<int, faces> halvings(const FrameInput& input, const LightViews& views
     }
     return result;
 }
-
-/// Places squares, largest first, along a Z-shaped curve: each then starts at a multiple of its own size.
-struct Shelf {
-    int most = 0;            ///< halvings of the smallest square
-    std::uint32_t next = 0;  ///< in smallest squares
-    /// Sets the layer and the rectangle of a square of so many halvings.
-    void put(GnLightView& view, int halved) {
-        const std::uint32_t in_layer = 1U << (2 * most);
-        view.layer = static_cast<int>(next / in_layer);
-        const std::uint32_t along = next % in_layer;
-        uvec2 cell(0);
-        for (unsigned bit = 0; bit < static_cast<unsigned>(most); ++bit) {
-            cell.x |= (along >> (2 * bit) & 1U) << bit;
-            cell.y |= (along >> (2 * bit + 1) & 1U) << bit;
-        }
-        const float unit = 1.0F / static_cast<float>(1U << most);
-        const float side = 1.0F / static_cast<float>(1U << halved);
-        view.rect_ts = vec4(static_cast<float>(cell.x) * unit, static_cast<float>(cell.y) * unit, side, side);
-        next += 1U << (2 * (most - halved));
-    }
-};
 
 /// The same face with the half-angle that leaves room for the kernels in a smaller square.
 GnLightView resized(const GnLightView& face, double far, double tangent) {
