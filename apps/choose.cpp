@@ -25,6 +25,25 @@ LoadOptions load_options(const FileOptions& file, const Size& size) {
     return options;
 }
 
+AnimatedScene load_asked(const std::string& scene, const FileOptions& file, const Size& size) {
+    if (file.animation.empty() && file.time != 0) {
+        fail("--time {}: it is a time of an animation; name one with --animation", file.time);
+    }
+    AnimatedScene loaded = load_animated_scene(scene, load_options(file, size));
+    if (!file.animation.empty()) {
+        for (std::string& remark : pose_asked(loaded, file.animation, file.time)) {
+            loaded.scene.notes.push_back(std::move(remark));
+        }
+    }
+    return loaded;
+}
+
+std::vector<std::string> pose_asked(AnimatedScene& loaded, const std::string& animation, double seconds) {
+    const std::optional<std::size_t> index =
+        animation.empty() ? std::nullopt : std::optional(find_animation(loaded.rig, animation));
+    return pose_scene(loaded.scene, loaded.rig, index, seconds);
+}
+
 std::size_t find_light(const Scene& scene, const std::string& name) {
     std::vector<std::string_view> known;
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {

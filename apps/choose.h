@@ -4,6 +4,7 @@
 
 #include "apps/options.h"
 #include "shadow/recipe/recipe.h"
+#include "shadow/scene/rig.h"
 
 #include <optional>
 
@@ -11,6 +12,12 @@ namespace gn {
 
 /// How a scene is loaded for a picture of this size with the ground that --ground asks for.
 LoadOptions load_options(const FileOptions& file, const Size& size);
+
+/// The scene that the command line names, moved to where --animation and --time say. Throws Error.
+AnimatedScene load_asked(const std::string& scene, const FileOptions& file, const Size& size);
+
+/// Moves it to a time of an animation; "" is at rest. What must be said of it, one sentence each. Throws Error.
+std::vector<std::string> pose_asked(AnimatedScene& loaded, const std::string& animation, double seconds);
 
 /// The index of the light that --light names. Throws Error listing the scene's lights.
 std::size_t find_light(const Scene& scene, const std::string& name);

@@ -85,6 +85,10 @@ constexpr const char* up_help =
 constexpr const char* assets_help =
     "A folder that a file may read from besides its own, with all below it; may be repeated";
 
+constexpr const char* animation_help =
+    "The file's animation that moves it, by name or number (default: all is at rest)";
+constexpr const char* time_help = "Seconds since the animation's begin (default: 0)";
+
 constexpr const char* compare_examples = R"(Examples:
   gnomon compare courtyard -r hard -r pcf -r volumes -o report         then open report/index.html
   gnomon compare fence corridor -r hard -r hard,resolution=4096 --json figures.json
@@ -245,6 +249,8 @@ struct Parser {
         command->add_option("--ground", words.ground, ground_help);
         command->add_option("--up", words.up, up_help);
         command->add_option("--assets", file.assets, assets_help)->type_name("DIR")->allow_extra_args(false);
+        command->add_option("--animation", file.animation, animation_help);
+        command->add_option("--time", file.time, time_help)->check(CLI::Range(0.0, 1e9));
     }
 
     void add_bench() {
@@ -341,7 +347,7 @@ struct Parser {
         command->add_option("--window", view_window, "WIDTHxHEIGHT in pixels (default: 1280x720)");
         command->add_option("--size", view_size, "Of each viewport's picture (default: as large as it is shown)");
         command->add_flag("--no-panel", view.no_panel, "Viewports alone");
-        command->add_flag("--play", view.plays, "Follow the scene's camera path");
+        command->add_flag("--play", view.plays, "Plays the animation, and the scene's camera path");
         command->add_flag("--headless", view.headless, "No window; with --frames");
         command->add_option("--frames", view.frames, "Frames to draw")->check(CLI::Range(1, 1 << 20));
         command->add_option("--record", view.record, "Keep what the window would show: a name with %04d, as .png");

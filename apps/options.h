@@ -56,6 +56,8 @@ struct FileOptions {
     GroundOption ground;
     std::vector<std::string> assets;  ///< folders that it may read from besides its own
     UpAxis up = UpAxis::y;
+    std::string animation;  ///< that moves it; "": all stands as at rest
+    double time = 0;        ///< of the animation, seconds
 };
 
 struct RenderOptions {

@@ -181,7 +181,7 @@ int run(const RenderOptions& options) {
     progress.step(0, 3, "reading " + options.scene);
     const Recipe recipe = reading([&] { return load_recipe(options.recipe); });
     check_recipe_alone(recipe, options);
-    const Scene scene = reading([&] { return load_scene(options.scene, load_options(options.file, options.size)); });
+    const Scene scene = reading([&] { return load_asked(options.scene, options.file, options.size).scene; });
     const Camera camera = reading([&] { return scene.camera(options.view); });
     const std::size_t light =
         reading([&] { return options.light.empty() ? std::size_t{0} : find_light(scene, options.light); });

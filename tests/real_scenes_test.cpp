@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Models made by others, good ones and bad ones, where they lie beside the source tree.
 #include "base/paths.h"
+#include "shadow/scene/rig.h"
 #include "shadow/scene/testing.h"
 #include "tests/thorough.h"
 
@@ -105,6 +106,31 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"chairs_table/oakTable/oakTable.obj", 5'160, 1, 1}, Expected{"classic/teapot.obj", 6'320, 1, 1},
         Expected{"classic/teapot_lowpoly.obj", 992, 1, 1}, Expected{"classic/spot.obj", 5'856, 1, 1},
         Expected{"classic/spot_quads.obj", 5'856, 1, 1}));
+
+TEST(RealScenes, AWalkingManKeepsHisBones) {
+    const std::filesystem::path file = scenes() / "characters/CesiumMan.glb";
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "skipped: characters/CesiumMan.glb is not here";
+    }
+    AnimatedScene loaded = load_animated_scene(file.string());
+    Scene& scene = loaded.scene;
+    const Scene rest = scene;
+    ASSERT_EQ(loaded.rig.animations.size(), 1U);
+    for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+        EXPECT_TRUE(pose_scene(scene, loaded.rig, 0, share * loaded.rig.animations[0].seconds).empty());
+        expect_sound(scene);
+        // Bones are rigid, so that edges far from the joints keep their lengths: half of all within a hundredth.
+        std::vector<double> changes;
+        for (const uvec3 t : scene.triangles) {
+            const double now = glm::distance(dvec3(scene.positions_ws[t.x]), dvec3(scene.positions_ws[t.y]));
+            const double then = glm::distance(dvec3(rest.positions_ws[t.x]), dvec3(rest.positions_ws[t.y]));
+            changes.push_back(std::abs(now / then - 1));
+        }
+        std::nth_element(changes.begin(), changes.begin() + changes.size() / 2, changes.end());
+        EXPECT_LT(changes[changes.size() / 2], 0.01) << share;
+        EXPECT_NE(scene.positions_ws, rest.positions_ws) << share;
+    }
+}
 
 TEST(RealScenes, ThinStructuresLoad) {
     if (!std::filesystem::exists(scenes() / "thin_structures")) {

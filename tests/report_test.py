@@ -63,7 +63,7 @@ def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     browser = shutil.which("chromium")
     check(browser, "chromium is not installed; tools/install_packages brings it")
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:  # a browser may still write while it ends
         folder = pathlib.Path(scratch) / "report"
         subprocess.run([str(build / "gnomon"), "compare", "contact", "-r", "hard", "-r", "pcf", "-r", "volumes", "--size", "96x64",
                         "--samples", "4", "--repeat", "1", "-o", str(folder)], check=True, capture_output=True)

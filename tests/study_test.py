@@ -5,7 +5,9 @@
     tests/study_test.py build/release
 """
 
+import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -59,7 +61,7 @@ class Browser:
         os.close(theirs_in)
         os.close(theirs_out)
         self.reader, self.writer = os.fdopen(ours_in, "rb"), os.fdopen(ours_out, "wb")
-        self.number, self.errors, self.session = 0, [], None
+        self.number, self.errors, self.session, self.loads = 0, [], None, 0
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         self.call("Runtime.enable")
@@ -74,8 +76,6 @@ class Browser:
         self.writer.flush()
         while True:
             answer = self.receive()
-            if answer.get("method") == "Runtime.exceptionThrown":
-                self.errors.append(answer["params"]["exceptionDetails"].get("exception", {}).get("description", "unknown"))
             if answer.get("id") == self.number:
                 check("error" not in answer, f"{method}: {answer.get('error')}")
                 return answer["result"]
@@ -85,10 +85,24 @@ class Browser:
         while (one := self.reader.read(1)) != b"\0":
             check(one, "the browser ended")
             bytes_ += one
-        return json.loads(bytes_)
+        answer = json.loads(bytes_)
+        if answer.get("method") == "Runtime.exceptionThrown":
+            self.errors.append(answer["params"]["exceptionDetails"].get("exception", {}).get("description", "unknown"))
+        self.loads += answer.get("method") == "Page.loadEventFired"
+        return answer
+
+    def load(self, method, **parameters):
+        """Until the new page stands there: what is asked of the old one meanwhile is answered by it, and a click on it is lost."""
+        before = self.loads
+        self.call(method, **parameters)
+        while self.loads == before:
+            self.receive()
 
     def go(self, address):
-        self.call("Page.navigate", url=address)
+        self.load("Page.navigate", url=address)
+
+    def reload(self):
+        self.load("Page.reload")
 
     def run(self, script):
         result = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
@@ -107,8 +121,14 @@ class Browser:
         path.write_bytes(base64.b64decode(self.call("Page.captureScreenshot")["data"]))
 
     def close(self):
-        self.process.kill()
-        self.process.wait()
+        """In order, so that none of its processes still writes into the profile while that is removed."""
+        self.session = None
+        try:
+            self.call("Browser.close")
+            self.process.wait(timeout=20)
+        except (SystemExit, OSError, subprocess.TimeoutExpired):
+            self.process.kill()
+            self.process.wait()
 
 
 class Server:
@@ -127,7 +147,48 @@ class Server:
 
 
 HEAD = "return document.querySelector('h1')?.textContent"
-LOADED = "return [...document.images].every(image => image.complete && image.naturalWidth > 0)"
+LOADED = "return document.images.length > 0 && [...document.images].every(image => image.complete && image.naturalWidth > 0)"
+
+# One who looks at pixels alone: whether the edge bends anywhere. Where the brightness is halfway is found in every column (or row,
+# where the edge stands upright), smoothed over five; it is no line where the slope over five pixels is 0.2 off its mean. Answers until
+# the study ends, and gives how many times.
+OBSERVER = """
+(async () => {
+  const canvas = document.createElement('canvas'), pen = canvas.getContext('2d', {willReadFrequently: true});
+  function contour(value, n) {
+    let low = 255, high = 0;
+    for (let i = 0; i < n; ++i) for (let k = 0; k < n; ++k) { low = Math.min(low, value(i, k)); high = Math.max(high, value(i, k)); }
+    const half = 0.5 * (low + high), places = [];
+    for (let i = 0; i < n; ++i) for (let k = 1; k < n; ++k) {
+      const a = value(i, k - 1) - half, b = value(i, k) - half;
+      if (a * b <= 0 && a !== b) { places.push(k - 1 + a / (a - b)); break; }
+    }
+    return places;
+  }
+  function isLine(image) {
+    const n = canvas.width = canvas.height = image.naturalWidth;
+    pen.drawImage(image, 0, 0);
+    const data = pen.getImageData(0, 0, n, n).data;
+    const down = contour((x, y) => data[4 * (y * n + x)], n), across = contour((y, x) => data[4 * (y * n + x)], n);
+    const places = down.length >= across.length ? down : across;
+    const smooth = places.slice(4).map((unused, i) => (places[i] + places[i + 1] + places[i + 2] + places[i + 3] + places[i + 4]) / 5);
+    const mean = (smooth[smooth.length - 1] - smooth[0]) / (smooth.length - 1);
+    return smooth.slice(5).every((place, i) => Math.abs((place - smooth[i]) / 5 - mean) < 0.2);
+  }
+  const pause = () => new Promise(resolve => setTimeout(resolve, 2));
+  const ended = () => document.querySelector('h1')?.textContent === 'Thank you';
+  for (let trials = 0, last = null, end = Date.now() + 90000; ; ++trials) {
+    while (!ended() && (!document.querySelector('img') || document.querySelector('img') === last)) {
+      if (Date.now() > end) return -trials;
+      await pause();
+    }
+    if (ended()) return trials;
+    last = document.querySelector('img');
+    await last.decode();
+    document.querySelector(isLine(last) ? '#yes' : '#no').click();
+  }
+})()
+"""
 
 
 def take_survey(browser, gnomon, folder, shots):
@@ -194,7 +255,7 @@ def take_threshold(browser, gnomon, folder, shots):
             browser.picture(shots / "trial.png")
         if position == 6:
             # The page is loaded again: the same trial stands there.
-            browser.call("Page.reload")
+            browser.reload()
             browser.wait(HEAD + " === 'Is the original image a line?'", "the question after a reload")
             browser.wait(LOADED, "the stimulus after a reload")
             check(browser.run("document.querySelector('img').src") == before, "a reload changed the trial")
@@ -207,21 +268,63 @@ def take_threshold(browser, gnomon, folder, shots):
     server.end()
 
 
+def take_threshold_to_the_end(browser, gnomon, folder):
+    """Every round, by an observer whose thresholds are sharp: the quests must find where they lie."""
+    server = Server(gnomon, folder)
+    browser.go(server.participants)
+    browser.wait(HEAD + " === 'Your screen'", "the adjustment")
+    browser.run("document.querySelector('button.go').click()")
+    browser.wait(LOADED, "the first trial")
+    trials = browser.run(OBSERVER)
+    check(trials > 0, f"the study did not end within {-trials} trials")
+    person = server.state_of_all()["people"][0]
+    server.end()
+    check(person["done"] and person["answers"] == trials, f"{trials} answers were given, and the administrator sees {person}")
+
+    # What is exported is what was answered.
+    subprocess.run([gnomon, "study", "export", folder, "-o", folder / "answers.csv"], check=True, capture_output=True)
+    with open(folder / "answers.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    check([int(row["position"]) for row in rows] == list(range(trials)), f"{trials} answers were given and {len(rows)} exported")
+    check(all((row["right"] == "true") == (row["line"] == row["said_line"]) for row in rows), "a right answer is exported as a wrong one")
+    lines = sum(row["line"] == "true" for row in rows)
+    check(0.3 * trials < lines < 0.7 * trials, f"{lines} of {trials} trials are lines")
+    for round_ in person["rounds"]:
+        quest = round_["quests"][0]
+        name = f"{round_['pattern']} at contrast {round_['contrast']}"
+        mine = [row for row in rows if row["pattern"] == round_["pattern"] and float(row["contrast"]) == round_["contrast"]]
+        check(quest["converged"] and 10 <= len(mine) < 80 and len(quest["radii"]) == len(mine), f"{name}: {len(mine)} trials, {quest}")
+        # Steps are seen under smaller filters than those that hide them, to some hundredths, for a picture that is turned has other
+        # eight-bit steps; and the quest's threshold lies between both.
+        seen = [float(row["radius"]) for row in mine if row["line"] == "false" and row["said_line"] == "false"]
+        hidden = [float(row["radius"]) for row in mine if row["line"] == "false" and row["said_line"] == "true"]
+        check(seen and hidden and max(seen) < 1.1 * min(hidden), f"{name}: steps were seen under {sorted(seen)} and not under {sorted(hidden)}")
+        sharp = math.sqrt(max(seen) * min(hidden))
+        # Sharp to three deviations at which a quest ends, 0.045 decades each.
+        check(abs(math.log10(quest["radius"] / sharp)) < 0.135, f"{name}: the quest found {quest['radius']}, between {max(seen)} and {min(hidden)}")
+
+
 def main():
     gnomon = pathlib.Path(sys.argv[1]).resolve() / "gnomon"
     program = shutil.which("chromium")
     check(program, "chromium is not installed; tools/install_packages brings it")
-    with tempfile.TemporaryDirectory() as name:
+    # What a browser that was killed leaves behind is no failure of a study.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         scratch = pathlib.Path(name)
         shots = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
         (scratch / "two.toml").write_text(SWEEP)
         quiet = {"check": True, "capture_output": True}
         subprocess.run([gnomon, "study", "prepare", scratch / "survey", "--sweep", scratch / "two.toml"], **quiet)
         subprocess.run([gnomon, "study", "prepare", scratch / "threshold", "--kind", "threshold"], **quiet)
+        subprocess.run([gnomon, "study", "prepare", scratch / "whole", "--kind", "threshold"], **quiet)
+        # One size of artifact and one contrast, in small pictures: two rounds of a quest each.
+        plan = json.loads((scratch / "whole/study.json").read_text())
+        (scratch / "whole/study.json").write_text(json.dumps({**plan, "artifacts": [8.0], "contrasts": [0.5], "picture_size": 200}))
         browser = Browser(program, scratch)
         try:
             take_survey(browser, gnomon, scratch / "survey", shots)
             take_threshold(browser, gnomon, scratch / "threshold", shots)
+            take_threshold_to_the_end(browser, gnomon, scratch / "whole")
             check(browser.errors == [], f"a script failed: {browser.errors}")
         finally:
             browser.close()

@@ -52,7 +52,7 @@ BenchedRun benched(SceneGpu& gpu, const Camera& camera, const Recipe& recipe, De
 int run(const BenchOptions& options) {
     // Everything that the user may have got wrong is found before the first pass.
     const std::vector<Recipe> recipes = read_recipes(options.recipes);
-    const Scene scene = reading([&] { return load_scene(options.scene, load_options(options.file, options.size)); });
+    const Scene scene = reading([&] { return load_asked(options.scene, options.file, options.size).scene; });
     const Camera camera = reading([&] { return scene.camera(options.view); });
     if (options.json != "-") {
         check_writable_parent("--json", options.json);

@@ -53,7 +53,7 @@ void Bench::replace() {
 ViewSession::ViewSession(const std::string& asked, const CompareOptions& options, const Recipe* against)
     : options_(options), against_(against) {
     reading([&] {
-        scene_ = std::make_unique<Scene>(load_scene(asked, load_options(options.file, options.size)));
+        scene_ = std::make_unique<Scene>(load_asked(asked, options.file, options.size).scene);
         camera_ = scene_->camera(options.view);
         only_light_ = options.light.empty() ? -1 : static_cast<int>(find_light(*scene_, options.light));
         path_ = options.follow_path ? &find_path(*scene_, options.path) : nullptr;

@@ -32,6 +32,7 @@ void draw_panel(Viewer& viewer, vec2 window) {
     draw_look_section(viewer);
     draw_light_section(viewer);
     draw_camera_section(viewer);
+    draw_animation_section(viewer);
     draw_cost_section(viewer);
     draw_scene_section(viewer);
     draw_keep_section(viewer);

@@ -24,6 +24,7 @@ void draw_recipe_section(Viewer& viewer);
 void draw_parameter_section(Viewer& viewer);
 void draw_light_section(Viewer& viewer);
 void draw_camera_section(Viewer& viewer);
+void draw_animation_section(Viewer& viewer);
 void draw_look_section(Viewer& viewer);
 void draw_cost_section(Viewer& viewer);
 void draw_keep_section(Viewer& viewer);

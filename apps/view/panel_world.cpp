@@ -150,6 +150,35 @@ void draw_camera_section(Viewer& viewer) {
         false);
 }
 
+void draw_animation_section(Viewer& viewer) {
+    const Rig& rig = viewer.world().loaded.rig;
+    if (!rig.moves() || !section("Animation", true)) {
+        return;
+    }
+    const std::string at_rest = "at rest";
+    std::vector<std::string> names{at_rest};
+    for (const Animation& animation : rig.animations) {
+        names.push_back(animation.name);
+    }
+    const FileOptions& now = viewer.world().file;
+    std::string name = now.animation.empty() ? at_rest : rig.animations[find_animation(rig, now.animation)].name;
+    if (choice_row("animation", "animation", name, names, "What moves; or everything as the file has it at rest.")) {
+        viewer.animates = viewer.animates && name != at_rest;
+        viewer.set_pose(name == at_rest ? "" : name, 0);
+        return;
+    }
+    check_row("animation.plays", "play", viewer.animates, "Goes on with every frame. The space bar does the same.");
+    if (!now.animation.empty()) {
+        auto seconds = static_cast<float>(now.time);
+        const auto length = static_cast<float>(rig.animations[find_animation(rig, now.animation)].seconds);
+        if (slider_row("animation.time", "time", seconds, 0, length, "%.3f s", "Since the animation's begin.")) {
+            viewer.set_pose(now.animation, static_cast<double>(std::clamp(seconds, 0.0F, length)));
+        }
+    }
+    slider_row("animation.speed", "speed", viewer.speed, 0.05F, 4, "%.2f", "Seconds of the animation in one second.",
+               true);
+}
+
 void draw_cost_section(Viewer& viewer) {
     if (!section("Costs", false)) {
         return;

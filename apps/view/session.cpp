@@ -11,9 +11,9 @@
 namespace gn {
 namespace {
 
-constexpr std::array<std::string_view, 15> session_keys{"scene",   "ground", "up",     "assets",  "linked",
-                                                        "against", "other",  "split",  "error",   "light",
-                                                        "stops",   "lights", "window", "picture", "viewport"};
+constexpr std::array<std::string_view, 17> session_keys{
+    "scene", "ground", "up",     "assets",    "linked", "against", "other",   "split",   "error",
+    "light", "stops",  "lights", "animation", "time",   "window",  "picture", "viewport"};
 constexpr std::array<std::string_view, 4> viewport_keys{"recipe", "view", "camera", "show"};
 
 std::string text_of(const Size& size) {
@@ -102,6 +102,8 @@ std::string toml_of(const ViewSetup& setup) {
                       {"light", setup.light},
                       {"stops", static_cast<double>(setup.stops)},
                       {"lights", list(setup.lights)},
+                      {"animation", setup.file.animation},
+                      {"time", setup.file.time},
                       {"window", text_of(setup.window)},
                       {"picture", setup.picture ? text_of(*setup.picture) : std::string()},
                       {"viewport", std::move(viewports)}};
@@ -126,6 +128,8 @@ ViewSetup read_session(const std::string& path) {
     take(table, "error", setup.error, path);
     take(table, "light", setup.light, path);
     take(table, "stops", stops, path);
+    take(table, "animation", setup.file.animation, path);
+    take(table, "time", setup.file.time, path);
     take(table, "window", window, path);
     take(table, "picture", picture, path);
     setup.lights = texts_of(table, "lights", path);
@@ -206,6 +210,8 @@ std::string command_of(const ViewSetup& setup) {
     for (const std::string& folder : setup.file.assets) {
         add("--assets", folder, true);
     }
+    add("--animation", setup.file.animation, !setup.file.animation.empty());
+    add("--time", fmt::format("{}", setup.file.time), setup.file.time != 0);
     for (const ViewportSetup& viewport : setup.viewports) {
         add("-r", viewport.recipe, true);
     }

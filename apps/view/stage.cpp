@@ -178,7 +178,8 @@ void take_keys(Viewer& viewer) {
         viewer.panel = !viewer.panel;
     }
     if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) {
-        viewer.plays = !viewer.plays;
+        const bool stood = !viewer.plays && !viewer.animates;
+        viewer.plays = viewer.animates = stood;
     }
     if (ImGui::IsKeyPressed(GLFW_KEY_F12, false)) {
         viewer.take_window("window.png");

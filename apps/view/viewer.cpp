@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cmath>
 #include <numeric>
 
 namespace gn {
@@ -124,7 +125,24 @@ uvec2 Viewer::begin_input() {
     return size;
 }
 
+void Viewer::animate() {
+    const Rig& rig = world_->loaded.rig;
+    if (!animates || !rig.moves()) {
+        return;
+    }
+    // The first frame shows where it begins; after the last key it begins anew.
+    const FileOptions& now = world_->file;
+    if (now.animation.empty()) {
+        set_pose(rig.animations.front().name, 0);
+    } else if (drawn_ > 0) {
+        const double length = rig.animations[find_animation(rig, now.animation)].seconds;
+        const double next = now.time + static_cast<double>(speed * ImGui::GetIO().DeltaTime);
+        set_pose(now.animation, length > 0 ? std::fmod(next, length) : 0);
+    }
+}
+
 void Viewer::play() {
+    animate();
     if (!plays || world_->scene.paths.empty()) {
         return;
     }

@@ -39,6 +39,9 @@ class Viewer {
     void set_other(const std::string& text);
     void add_viewport();
     void remove_viewport(std::size_t viewport);
+    /// Moves all to a time of an animation, "" to where it is at rest; viewports that look through a camera of the scene stay
+    /// with it.
+    void set_pose(const std::string& animation, double seconds);
     void set_camera(std::size_t viewport, const Camera& camera, bool cut);  ///< of all where they are linked
     /// The window as it is shown, once the next frame has completed.
     void take_window(const std::filesystem::path& path);
@@ -57,7 +60,9 @@ class Viewer {
     static constexpr std::size_t most_viewports = 9;
 
     std::size_t selected = 0;  ///< the viewport that the panel is of
-    bool linked = true, error = false, panel = true, measures = false, plays = false;
+    bool linked = true, error = false, panel = true, measures = false;
+    bool plays = false, animates = false;  ///< the camera path; the animation
+    float speed = 1;                       ///< seconds of the animation in one
     Against against = Against::nothing;
     float split = 0.5F, stops = 0, scale = 1;
     std::size_t light = 0;
@@ -74,6 +79,7 @@ class Viewer {
     [[nodiscard]] std::vector<ViewportSetup> viewport_setups(bool with_cameras) const;
     uvec2 begin_input();
     void play();
+    void animate();
     void follow_truth();
     void take_stage();
     [[nodiscard]] std::string truth_key(const Viewport& viewport) const;

@@ -39,7 +39,7 @@ void Viewer::apply(const ViewSetup& setup) {
     }
     scene_field = world_->name;
     selected = 0;
-    plays = setup.plays;
+    plays = animates = setup.plays;
 }
 
 void Viewer::swap_world(std::unique_ptr<World> world, const std::vector<ViewportSetup>& setups) {
@@ -53,14 +53,17 @@ void Viewer::swap_world(std::unique_ptr<World> world, const std::vector<Viewport
     world_ = std::move(world);
     light = 0;
     path_frame = 0;
-    plays = false;
+    plays = animates = false;
     scene_field = world_->name;
     make_viewports(setups);
 }
 
 void Viewer::load(const std::string& scene, const FileOptions& file) {
     trying([&] {
-        auto world = std::make_unique<World>(device_, scene, file, first_.window);
+        FileOptions at_rest = file;
+        at_rest.animation.clear();
+        at_rest.time = 0;
+        auto world = std::make_unique<World>(device_, scene, at_rest, first_.window);
         std::vector<ViewportSetup> setups = viewport_setups(false);
         swap_world(std::move(world), setups);
         message = fmt::format("{}: {} triangles, {} lights", scene, world_->scene.triangles.size(),
@@ -191,6 +194,27 @@ void Viewer::set_camera(std::size_t viewport, const Camera& camera, bool cut) {
             }
         }
     }
+}
+
+void Viewer::set_pose(const std::string& animation, double seconds) {
+    trying([&] {
+        // What is traced, is traced of the scene as it stood.
+        worker_.reset();
+        truth_.reset();
+        truth_key_.clear();
+        std::vector<std::string> looked;
+        for (const Camera& camera : world_->scene.cameras) {
+            looked.push_back(text_of(camera));
+        }
+        const std::vector<std::string> remarks = world_->pose(device_, animation, seconds);
+        message = remarks.empty() ? message : remarks.front();
+        for (const std::shared_ptr<Viewport>& viewport : viewports_) {
+            const auto through = std::find(looked.begin(), looked.end(), text_of(viewport->camera));
+            if (through != looked.end()) {
+                viewport->camera = world_->scene.cameras[static_cast<std::size_t>(through - looked.begin())];
+            }
+        }
+    });
 }
 
 void Viewer::take_window(const std::filesystem::path& path) {

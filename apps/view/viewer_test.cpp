@@ -5,6 +5,7 @@
 #include "apps/subprocess_test.h"
 #include "apps/view/panel.h"
 #include "gpu/presenting.h"
+#include "shadow/scene/bent_column.h"
 #include "shadow/shading/tonemap.h"
 #include "tests/thorough.h"
 
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -154,16 +156,78 @@ TEST_F(ViewerTest, TakesThePicturesThatRenderWrites) {
     }
 }
 
+TEST_F(ViewerTest, PlaysAnAnimationAndPauses) {
+    const ScratchFolder folder;
+    std::ofstream(folder / "column.gltf") << testing_scene::bent_column();
+    ViewSetup setup = setup_of(folder / "column.gltf", {"hard,resolution=256"});
+    setup.window = Size{1000, 1500};
+    setup.plays = true;
+    Viewer viewer(device(), setup, nullptr);
+    draw(viewer, 4);
+    // Without a window a frame takes a sixtieth of a second; the first shows where it begins.
+    EXPECT_EQ(viewer.world().file.animation, "bend");
+    EXPECT_NEAR(viewer.world().file.time, 3.0 / 60, 1e-6);
+    viewer.speed = 30;
+    draw(viewer, 3);
+    EXPECT_NEAR(viewer.world().file.time, std::fmod(3.0 / 60 + 1.5, 1.0), 1e-5) << "it begins anew";
+    click(viewer, "animation.plays");
+    EXPECT_FALSE(viewer.animates);
+    const double paused = viewer.world().file.time;
+    draw(viewer, 2);
+    EXPECT_EQ(viewer.world().file.time, paused);
+
+    // The slider goes to a time, and a frame of it is what render writes, bit for bit.
+    drag(viewer, "animation.time", 0.3F, 0.6F);
+    const double chosen = viewer.world().file.time;
+    EXPECT_NE(chosen, paused);
+    viewer.take_pictures(folder / "shots", "column");
+    viewer.frame();
+    viewer.finish();
+    const CommandResult rendered = run_gnomon({"render", folder / "column.gltf", "-r", "hard,resolution=256",
+                                               "--antialias", "1", "--size", "160x90", "--animation", "bend", "--time",
+                                               fmt::format("{}", chosen), "-o", folder / "rendered.png"});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(file_text(folder / "shots/column-hard-resolution-256.png"), file_text(folder / "rendered.png"));
+
+    // A session comes back to it, and so does a command line.
+    viewer.save_session(folder / "session.toml");
+    const std::string saved = toml_of(viewer.setup());
+    EXPECT_NE(command_of(viewer.setup()).find(fmt::format("--animation bend --time {}", chosen)), std::string::npos);
+    viewer.set_pose("", 0);
+    viewer.load_session(folder / "session.toml");
+    draw(viewer, 1);
+    EXPECT_EQ(viewer.world().file.time, chosen) << viewer.message;
+    EXPECT_EQ(toml_of(viewer.setup()), saved);
+}
+
+TEST_F(ViewerTest, TracesTheTruthOfAPoseAnew) {
+    const ScratchFolder folder;
+    std::ofstream(folder / "column.gltf") << testing_scene::bent_column();
+    ViewSetup setup = setup_of(folder / "column.gltf", {"hard,resolution=256"});
+    setup.picture = Size{64, 48};
+    setup.against = Against::truth;
+    Viewer viewer(device(), setup, nullptr);
+    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.truth() != nullptr; }));
+    const std::shared_ptr<TruthPictures> at_rest = viewer.truth();
+    viewer.set_pose("bend", 1);
+    viewer.frame();
+    EXPECT_EQ(viewer.truth(), nullptr);
+    EXPECT_TRUE(draw_until(viewer, [&] { return viewer.truth() != nullptr; }));
+    EXPECT_NE(download(device(), viewer.truth()->visibility.front()), download(device(), at_rest->visibility.front()));
+}
+
 TEST_F(ViewerTest, SlidersChangeTheRecipe) {
     ViewSetup setup = setup_of("slab", {"pcf,resolution=256"});
     setup.window = Size{1000, 1500};  // all of the panel is in sight
     Viewer viewer(device(), setup, nullptr);
     draw(viewer, 3);
     const std::string before = viewer.viewport(0).recipe.text().text();
+    const std::string size = value_of(viewer.viewport(0).recipe.asked(), "pcf.size");
     drag(viewer, "pcf.size", 0.1F, 0.6F);
     const std::string after = viewer.viewport(0).recipe.text().text();
     EXPECT_NE(after, before);
     EXPECT_NE(after.find("pcf.size="), std::string::npos) << after;
+    EXPECT_NE(value_of(viewer.viewport(0).recipe.asked(), "pcf.size"), size);
     EXPECT_TRUE(draw_until(viewer, [&] { return !viewer.viewport(0).recipe.awaits(); }));
     EXPECT_EQ(value_of(viewer.viewport(0).recipe.now()->recipe(), "pcf.size"),
               value_of(viewer.viewport(0).recipe.asked(), "pcf.size"));
@@ -393,6 +457,8 @@ TEST(ViewCommand, SaysInASentenceWhatIsWrong) {
     expect({"view", "slab", "--headless", "--frames", "1", "--record", "out.png"}, 2, "%04d");
     expect({"view", "slab", "-r", "pfc"}, 2, "pcf");
     expect({"view", "slab", "--show", "nothing-such"}, 2, "texels");
+    expect({"view", "slab", "--animation", "walk", "--headless", "--frames", "1"}, 2, "nothing of this scene moves");
+    expect({"render", "slab", "--time", "2"}, 2, "--animation");
     expect({"view", "no-such-scene", "--headless", "--frames", "1"}, 2, "no-such-scene");
 }
 

@@ -32,8 +32,8 @@ std::shared_ptr<TruthPictures> upload(Device& device, const TruthStage& stage) {
 }  // namespace
 
 std::string Viewer::truth_key(const Viewport& viewport) const {
-    return fmt::format("{} {}x{} {} {}", text_of(viewport.camera), viewport.width, viewport.height,
-                       world_->lights_version, viewport.coloured());
+    return fmt::format("{} {}x{} {} {} {}", text_of(viewport.camera), viewport.width, viewport.height,
+                       world_->lights_version, world_->gpu.version, viewport.coloured());
 }
 
 void Viewer::follow_truth() {

@@ -249,9 +249,9 @@ void Viewport::draw(VkCommandBuffer commands, PipelineCompiler& compiler, const 
 }
 
 void Viewport::draw_hidden(const SharedView& shared) {
-    const std::string key =
-        fmt::format("{} {} {} {}x{} {} {}", show, recipe.now()->recipe().name + "," + recipe.now()->recipe().overrides,
-                    text_of(camera), width, height, shared.light, world_.lights_version);
+    const std::string key = fmt::format(
+        "{} {} {} {}x{} {} {} {}", show, recipe.now()->recipe().name + "," + recipe.now()->recipe().overrides,
+        text_of(camera), width, height, shared.light, world_.lights_version, world_.gpu.version);
     if (key == hidden_key_) {
         return;
     }

@@ -9,7 +9,7 @@ namespace gn {
 World::World(Device& device, const std::string& name_, const FileOptions& file_, const Size& window)
     : name(name_),
       file(file_),
-      scene(reading([&] { return load_scene(name_, load_options(file_, window)); })),
+      loaded(reading([&] { return load_asked(name_, file_, window); })),
       as_loaded(scene.lights),
       gpu(upload_scene(device, scene)) {
     say_notes(name, scene.notes);
@@ -20,6 +20,26 @@ void World::move_light(const std::string& words) {
     Light& light = scene.lights[find_light(scene, words.substr(0, comma))];
     light.shape = parse_light(std::string_view(words).substr(std::min(comma + 1, words.size())), light.shape);
     ++lights_version;
+}
+
+std::vector<std::string> World::pose(Device& device, const std::string& animation, double seconds) {
+    // Lights as the scene has them move; what a hand changed of them is laid over that again.
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        words.push_back(text_of(scene.lights[i].shape, as_loaded[i].shape));
+    }
+    std::vector<std::string> remarks = pose_asked(loaded, animation, seconds);
+    for (const CarriedLight& carried : loaded.rig.lights) {
+        as_loaded[carried.light].shape = scene.lights[carried.light].shape;
+        scene.lights[carried.light].shape = parse_light(words[carried.light], as_loaded[carried.light].shape);
+        ++lights_version;
+    }
+    file.animation = animation;
+    file.time = seconds;
+    // Frames in flight still read what is written over.
+    vkDeviceWaitIdle(device.vk());
+    refresh_scene(device, gpu);
+    return remarks;
 }
 
 std::vector<std::string> World::moved_lights() const {

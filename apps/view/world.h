@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/view/setup.h"
+#include "shadow/scene/rig.h"
 #include "shadow/stages.h"
 
 namespace gn {
@@ -14,14 +15,18 @@ struct World {
     World& operator=(const World&) = delete;
 
     std::string name;  ///< as asked for
-    FileOptions file;
-    Scene scene;                   ///< its lights may be moved; all else stays
-    std::vector<Light> as_loaded;  ///< its lights
+    FileOptions file;  ///< its animation and time: where all stands now
+    AnimatedScene loaded;
+    Scene& scene = loaded.scene;   ///< its lights may be moved; all else moves by pose alone
+    std::vector<Light> as_loaded;  ///< its lights, as nothing but the animation moved them
     SceneGpu gpu;
     std::uint64_t lights_version = 1;  ///< another one whenever a light was changed
 
     /// "NAME,key=value,...". Throws Error.
     void move_light(const std::string& words);
+    /// Moves all to a time of an animation, "" to where it is at rest; lights that a hand moved keep what it did. Waits for the
+    /// device. What must be said of it, one sentence each. Throws Error.
+    std::vector<std::string> pose(Device& device, const std::string& animation, double seconds);
     /// Such words of all lights that stand otherwise than as loaded.
     [[nodiscard]] std::vector<std::string> moved_lights() const;
     /// Metres from one end of the scene to the other.

@@ -219,13 +219,17 @@ void finish_host_scene(Scene& scene) {
 }
 
 void finish_scene(Scene& scene, const LoadOptions& options) {
+    finish_and_copy(scene, options);
+}
+
+std::vector<std::uint32_t> finish_and_copy(Scene& scene, const LoadOptions& options) {
     // Geometry that can be trusted.
     check_structure(scene);
     drop_bad_triangles(scene);
     split_objects(scene);
     recentre(scene);
     clean_vertices(scene);
-    complete_normals(scene);
+    std::vector<std::uint32_t> copies = complete_normals(scene);
     note_transparent(scene);
 
     // What surrounds it.
@@ -250,6 +254,7 @@ void finish_scene(Scene& scene, const LoadOptions& options) {
     complete_lights(scene);
     complete_cookies(scene);
     complete_casting(scene);
+    return copies;
 }
 
 }  // namespace gn

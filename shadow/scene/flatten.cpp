@@ -203,6 +203,8 @@ vec3 turn_axis(const glm::dmat3& linear, vec3 axis) {
     return std::isfinite(length) && length > 0.0 ? vec3(turned / length) : axis;
 }
 
+}  // namespace
+
 void move_camera(PlacedCamera& placed, const dmat4& ws_from_model) {
     const glm::dmat3 linear(ws_from_model);
     placed.position_ws = dvec3(ws_from_model * dvec4(placed.position_ws, 1.0));
@@ -214,7 +216,6 @@ void move_camera(PlacedCamera& placed, const dmat4& ws_from_model) {
     placed.camera.far *= scale;
 }
 
-// A moved light keeps its intensity; its size scales with the model.
 void move_light(PlacedLight& placed, const dmat4& ws_from_model) {
     const glm::dmat3 linear(ws_from_model);
     GnLight& shape = placed.light.shape;
@@ -228,8 +229,6 @@ void move_light(PlacedLight& placed, const dmat4& ws_from_model) {
     shape.half_size *= scale;
 }
 
-}  // namespace
-
 void append_model(Model& whole, Model part, const dmat4& ws_from_model) {
     // Renumber what the part refers to.
     const std::size_t first_mesh = whole.meshes.size();
@@ -241,8 +240,17 @@ void append_model(Model& whole, Model part, const dmat4& ws_from_model) {
     for (Mesh& mesh : part.meshes) {
         mesh.material += first_material;
     }
+    const std::size_t first_follower = whole.rig.followers.size();
+    for (CarriedLight& carried : part.rig.lights) {
+        carried.light += whole.lights.size();
+    }
+    for (CarriedCamera& carried : part.rig.cameras) {
+        carried.camera += whole.cameras.size();
+    }
+    append_rig(whole.rig, std::move(part.rig), ws_from_model);
     for (Instance& instance : part.instances) {
         instance.mesh += first_mesh;
+        instance.follower = instance.follower ? std::optional(*instance.follower + first_follower) : std::nullopt;
         instance.ws_from_os = ws_from_model * instance.ws_from_os;
     }
 

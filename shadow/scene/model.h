@@ -3,6 +3,7 @@
 // Only flatten() rounds to float, after the scene's origin is known.
 #pragma once
 
+#include "shadow/scene/rig.h"
 #include "shadow/scene/scene.h"
 
 namespace gn {
@@ -23,6 +24,7 @@ struct Instance {
     dmat4 ws_from_os{1.0};
     std::string name;
     std::optional<bool> casts, receives;  ///< what the file told; unset: nothing
+    std::optional<std::size_t> follower;  ///< of the rig; unset: it stands still
 };
 
 /// light.shape.position_ws is unused until flatten() writes it.
@@ -51,6 +53,7 @@ struct Model {
     std::optional<Light> environment;  ///< unset: the file says nothing
     std::vector<PlacedCamera> cameras;
     std::vector<PlacedPath> paths;
+    Rig rig;  ///< its lights and cameras are those of this model
     std::vector<std::string> notes;
 };
 
@@ -74,6 +77,10 @@ void note_transparent(Scene& scene);
 /// Appends `part` to `whole`, moved by `ws_from_model`.
 void append_model(Model& whole, Model part, const dmat4& ws_from_model);
 
+/// Moves a light, whose intensity stays and whose size scales, or a camera.
+void move_light(PlacedLight& placed, const dmat4& ws_from_model);
+void move_camera(PlacedCamera& placed, const dmat4& ws_from_model);
+
 /// Writes every instance in world space. Throws Error beyond max_triangles or max_instances, before it allocates.
 Scene flatten(const Model& model);
 
@@ -90,7 +97,10 @@ Model load_model(const std::filesystem::path& path, const Assets& assets, bool t
 
 // The steps of finish_scene.
 void drop_bad_triangles(Scene& scene);
-void complete_normals(Scene& scene);
+/// Vertices that get several normals are copied, behind all others; gives of which vertex each of those is a copy.
+std::vector<std::uint32_t> complete_normals(Scene& scene);
+/// As finish_scene; gives what complete_normals copied.
+std::vector<std::uint32_t> finish_and_copy(Scene& scene, const LoadOptions& options);
 /// Where there is no light; asks for the first camera.
 void add_default_sun(Scene& scene);
 void complete_lights(Scene& scene);

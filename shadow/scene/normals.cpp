@@ -102,6 +102,8 @@ class VertexSplitter {
   public:
     explicit VertexSplitter(Scene& scene) : scene_(scene) {}
 
+    std::vector<std::uint32_t> copied;  ///< the vertex of which each added one is a copy
+
     void begin_point() { copies_.clear(); }
 
     void set(const Corner& corner, vec3 normal) {
@@ -127,6 +129,7 @@ class VertexSplitter {
             scene_.colors.push_back(vec4(scene_.colors[original]));
         }
         copies_.push_back({original, vertex});
+        copied.push_back(original);
     }
 
   private:
@@ -139,7 +142,7 @@ class VertexSplitter {
 
 }  // namespace
 
-void complete_normals(Scene& scene) {
+std::vector<std::uint32_t> complete_normals(Scene& scene) {
     const std::vector<Corner> corners = collect_corners(scene);
     if (scene.positions_ws.size() + corners.size() > std::numeric_limits<std::uint32_t>::max()) {
         fail("the scene has too many vertices without normals ({})", corners.size());
@@ -158,6 +161,7 @@ void complete_normals(Scene& scene) {
 
     // Vertices that no triangle uses still hold a unit vector.
     std::replace(scene.normals_ws.begin(), scene.normals_ws.end(), vec3(0.0F), vec3(0.0F, 1.0F, 0.0F));
+    return std::move(splitter.copied);
 }
 
 }  // namespace gn

@@ -10,13 +10,20 @@ namespace {
 
 using namespace gltf;
 
+// What holds a mesh that hangs on bones.
+struct Hold {
+    Joints joints;            ///< at rest
+    std::optional<int> skin;  ///< of the rig, where something moves a joint
+};
+
 // Builds the meshes that nodes ask for, each primitive once.
 class Builder {
   public:
     Builder(File& file, Model& model, Pictures& pictures)
         : file_(file), model_(model), uv_uses_(load_materials(file, model, pictures)) {}
 
-    void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Joints* joints) {
+    // `hold`: null without a skin. `moved`: the node's place in the rig, where something moves it.
+    void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Hold* hold, std::optional<int> moved) {
         if (node.mesh < 0) {
             return;
         }
@@ -26,10 +33,16 @@ class Builder {
         const bool lit = node.extensions.count("KHR_lights_punctual") > 0;
         const Orders orders = read_orders(file_, node.extras, fmt::format("Node '{}'", name), lit);
         const std::vector<double>& weights = node.weights.empty() ? data.weights : node.weights;
-        if (joints != nullptr) {
+        if (hold != nullptr) {
             // A posed mesh is already in the world: the node's own matrix plays no part.
-            for (const std::size_t mesh : load(data, {joints, weights})) {
-                add_instance(mesh, dmat4(1.0), name, orders);
+            std::vector<RigShape> shapes;
+            const std::vector<std::size_t> meshes =
+                load(data, {&hold->joints, weights}, hold->skin ? &shapes : nullptr);
+            for (std::size_t i = 0; i < meshes.size(); ++i) {
+                Instance& instance = add_instance(meshes[i], dmat4(1.0), name, orders);
+                if (hold->skin) {
+                    instance.follower = follow(std::move(shapes[i]), {.skin = *hold->skin});
+                }
             }
             return;
         }
@@ -38,13 +51,36 @@ class Builder {
         const auto& parts = known != meshes_.end() ? known->second : meshes_[key] = load(data, {nullptr, weights});
         for (const dmat4& node_from_instance : instance_matrices(file_, node)) {
             for (const std::size_t mesh : parts) {
-                add_instance(mesh, ws_from_node * node_from_instance, name, orders);
+                Instance& instance = add_instance(mesh, ws_from_node * node_from_instance, name, orders);
+                if (moved) {
+                    instance.follower = follow(mesh, {.node = *moved, .node_from_os = node_from_instance});
+                }
             }
         }
     }
 
   private:
-    std::vector<std::size_t> load(const tinygltf::Mesh& data, const Pose& pose) {
+    // The vertices that a rig moves: all instances of a mesh by one copy.
+    std::size_t follow(std::size_t mesh, Follower follower) {
+        const auto [known, added] = shapes_.try_emplace(mesh, model_.rig.shapes.size());
+        if (added) {
+            model_.rig.shapes.push_back({.positions_os = model_.meshes[mesh].positions_os});
+        }
+        follower.shape = known->second;
+        model_.rig.followers.push_back(std::move(follower));
+        return model_.rig.followers.size() - 1;
+    }
+
+    std::size_t follow(RigShape shape, Follower follower) {
+        follower.shape = model_.rig.shapes.size();
+        model_.rig.shapes.push_back(std::move(shape));
+        model_.rig.followers.push_back(std::move(follower));
+        return model_.rig.followers.size() - 1;
+    }
+
+    // `shapes`: null, or takes the meshes as they are before they are posed.
+    std::vector<std::size_t> load(const tinygltf::Mesh& data, const Pose& pose,
+                                  std::vector<RigShape>* shapes = nullptr) {
         std::vector<std::size_t> parts;
         const Orders of_mesh = read_orders(file_, data.extras, fmt::format("Mesh '{}'", clean_text(data.name)));
         for (const tinygltf::Primitive& primitive : data.primitives) {
@@ -55,11 +91,16 @@ class Builder {
             }
             const std::size_t material =
                 known ? static_cast<std::size_t>(primitive.material) : file_.data.materials.size();
-            Mesh mesh = load_primitive(file_, primitive, uv_uses_[material], pose);
+            RigShape shape;
+            Mesh mesh = load_primitive(file_, primitive, uv_uses_[material],
+                                       {pose.joints, pose.weights, shapes != nullptr ? &shape : nullptr});
             mesh.name = clean_text(data.name);
             mesh.material = with_factor(static_cast<int>(material), mesh);
             note_missing_uvs(primitive, material);
             if (!mesh.triangles.empty()) {
+                if (shapes != nullptr) {
+                    shapes->push_back(std::move(shape));
+                }
                 parts.push_back(model_.meshes.size());
                 model_.meshes.push_back(std::move(mesh));
                 orders_.push_back(of_mesh.over(of_material(material)));
@@ -111,14 +152,15 @@ class Builder {
         }
     }
 
-    void add_instance(std::size_t mesh, const dmat4& ws_from_os, const std::string& name, const Orders& of_node) {
+    Instance& add_instance(std::size_t mesh, const dmat4& ws_from_os, const std::string& name, const Orders& of_node) {
         triangles_ += model_.meshes[mesh].triangles.size();
         if (model_.instances.size() >= max_instances || triangles_ > max_triangles) {
             fail("{}: more than {} instances or {} triangles after instancing", file_.shown, max_instances,
                  max_triangles);
         }
         const Orders orders = of_node.over(orders_[mesh]);
-        model_.instances.push_back({mesh, ws_from_os, name, orders.casts, orders.receives});
+        model_.instances.push_back({mesh, ws_from_os, name, orders.casts, orders.receives, std::nullopt});
+        return model_.instances.back();
     }
 
     File& file_;
@@ -127,28 +169,66 @@ class Builder {
     std::map<std::pair<int, std::vector<double>>, std::vector<std::size_t>> meshes_;
     std::vector<Orders> orders_;  ///< of model_.meshes
     std::map<std::size_t, Orders> of_materials_;
+    std::map<std::size_t, std::size_t> shapes_;                  ///< of meshes that move whole
     std::map<std::pair<int, float>, std::size_t> with_factors_;  ///< materials with the alpha of vertices
     std::size_t triangles_ = 0;
 };
 
-// joint matrix = world from joint x joint from mesh, all at rest.
-std::optional<Joints> rest_joints(File& file, int skin_index, const std::vector<std::optional<dmat4>>& world) {
-    if (skin_index < 0) {
-        return std::nullopt;
+// Skins, each read once.
+class Skins {
+  public:
+    Skins(const File& file, Rig& rig, std::span<const PlacedNode> nodes, const std::vector<bool>& moved)
+        : file_(file), rig_(rig), moved_(moved), walked_(file.data.nodes.size(), -1) {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            walked_[static_cast<std::size_t>(nodes[i].index)] = static_cast<int>(i);
+            rest_.push_back(nodes[i].ws_from_node);
+        }
     }
-    const tinygltf::Skin& skin = at(file.data.skins, skin_index, file, "skin");
-    std::optional<Elements> inverses;
-    if (skin.inverseBindMatrices >= 0) {
-        inverses.emplace(file, skin.inverseBindMatrices);
+
+    // Null without a skin that has joints.
+    const Hold* find(int index) {
+        if (index < 0) {
+            return nullptr;
+        }
+        const auto known = holds_.find(index);
+        if (known != holds_.end()) {
+            return &known->second;
+        }
+        Skin skin = load_skin(file_, index, walked_);
+        if (skin.joints.empty()) {
+            return nullptr;
+        }
+        Hold& hold = holds_[index];
+        hold.joints = joint_matrices(skin, rest_);
+        if (std::any_of(skin.joints.begin(), skin.joints.end(),
+                        [&](int joint) { return joint >= 0 && moved_[static_cast<std::size_t>(joint)]; })) {
+            hold.skin = static_cast<int>(rig_.skins.size());
+            rig_.skins.push_back(std::move(skin));
+        }
+        return &hold;
     }
-    Joints joints;
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-        at(file.data.nodes, skin.joints[i], file, "node");
-        const std::optional<dmat4>& ws_from_joint = world[static_cast<std::size_t>(skin.joints[i])];
-        const bool given = inverses && i < inverses->size() && inverses->components() == 16;
-        joints.push_back(ws_from_joint.value_or(dmat4(1.0)) * (given ? inverses->matrix(i) : dmat4(1.0)));
+
+  private:
+    const File& file_;
+    Rig& rig_;
+    const std::vector<bool>& moved_;
+    std::vector<int> walked_;
+    std::vector<dmat4> rest_;
+    std::map<int, Hold> holds_;
+};
+
+// By each node: whether a curve moves it, or one above it.
+std::vector<bool> find_moved(const Rig& rig, std::span<const PlacedNode> nodes) {
+    std::vector<bool> moved(nodes.size(), false);
+    for (const Animation& animation : rig.animations) {
+        for (const Channel& channel : animation.channels) {
+            moved[channel.node] = true;
+        }
     }
-    return joints.empty() ? std::nullopt : std::optional(std::move(joints));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        moved[i] = moved[i] || (nodes[i].parent >= 0 && moved[static_cast<std::size_t>(nodes[i].parent)]);
+    }
+    return moved;
 }
 
 }  // namespace
@@ -170,10 +250,18 @@ void note_left_out(File& file) {
         add_note(file.notes, fmt::format("The file holds {} scenes; the {} is shown.", file.data.scenes.size(),
                                          file.data.defaultScene > 0 ? "one that it names" : "first"));
     }
-    if (!file.data.animations.empty()) {
+}
+
+void note_animations(File& file, const Rig& rig) {
+    if (rig.moves()) {
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < std::min<std::size_t>(rig.animations.size(), 5); ++i) {
+            names.push_back(fmt::format("'{}' of {:.3g} s", rig.animations[i].name, rig.animations[i].seconds));
+        }
         add_note(file.notes,
-                 fmt::format("{} animation{} not played: everything stands as at rest.", file.data.animations.size(),
-                             file.data.animations.size() == 1 ? " is" : "s are"));
+                 fmt::format("{} animation{} ({}{}): everything stands as at rest where --animation names none.",
+                             rig.animations.size(), rig.animations.size() == 1 ? "" : "s", fmt::join(names, ", "),
+                             rig.animations.size() > names.size() ? ", ..." : ""));
     }
 }
 
@@ -186,24 +274,31 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
     Pictures pictures(file, model);
     Builder builder(file, model, pictures);
 
-    // Where every node stands; joints are nodes too.
+    // Where every node stands, and which of them move; joints are nodes too.
     const std::vector<PlacedNode> nodes = walk_nodes(file);
-    std::vector<std::optional<dmat4>> world(file.data.nodes.size());
-    for (const PlacedNode& node : nodes) {
-        world[static_cast<std::size_t>(node.index)] = node.ws_from_node;
-    }
+    model.rig = load_rig(file, nodes);
+    note_animations(file, model.rig);
+    const std::vector<bool> moved = find_moved(model.rig, nodes);
+    Skins skins(file, model.rig, nodes, moved);
 
     // What every node carries.
-    for (const PlacedNode& node : nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const PlacedNode& node = nodes[i];
         const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
         if (node.visible) {
-            const std::optional<Joints> joints = rest_joints(file, data.mesh >= 0 ? data.skin : -1, world);
-            builder.add(data, node.ws_from_node, joints ? &*joints : nullptr);
+            builder.add(data, node.ws_from_node, data.mesh >= 0 ? skins.find(data.skin) : nullptr,
+                        moved[i] ? std::optional(static_cast<int>(i)) : std::nullopt);
             if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node, pictures)) {
+                if (moved[i]) {
+                    model.rig.lights.push_back({model.lights.size(), i, {}});
+                }
                 model.lights.push_back(std::move(*light));
             }
         }
         if (std::optional<PlacedCamera> camera = load_camera(file, data, node.ws_from_node)) {
+            if (moved[i]) {
+                model.rig.cameras.push_back({model.cameras.size(), i, {}});
+            }
             model.cameras.push_back(std::move(*camera));
         }
     }

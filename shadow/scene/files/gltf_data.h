@@ -24,6 +24,7 @@ struct File {
     std::size_t triangles_decoded = 0;  ///< of all primitives so far, before instancing
     std::size_t coarse_triangles = 0;   ///< of these, as large as few steps of the floats that hold their positions
     double coarse_step = 0;             ///< the largest of these steps
+    std::size_t influences = 0;         ///< of joints on vertices, read so far
 };
 
 /// Throws Error for what is no JSON, for nesting or a number of values that only an attack has, and for indices,
@@ -110,8 +111,17 @@ struct PlacedNode {
     int index = 0;
     dmat4 ws_from_node{1.0};
     bool visible = true;  ///< by KHR_node_visibility, of this node and all above it
+    int parent = -1;      ///< its place in the walk; -1: none
 };
 std::vector<PlacedNode> walk_nodes(const File& file);
+
+/// How a node stands in its parent's space when nothing moves it.
+RigNode node_at_rest(const tinygltf::Node& node);
+/// The nodes as a rig, in the order of the walk, and the animations that move any of them. What cannot be played is left out
+/// with a note. No animation: the rig is empty.
+Rig load_rig(File& file, std::span<const PlacedNode> nodes);
+/// A skin whose joints are numbered as the walk does. Throws Error.
+Skin load_skin(const File& file, int skin, std::span<const int> walked);
 
 /// Joint matrices at rest, for meshes that hang on bones.
 using Joints = std::vector<dmat4>;
@@ -119,6 +129,7 @@ using Joints = std::vector<dmat4>;
 struct Pose {
     const Joints* joints = nullptr;
     std::span<const double> weights;  ///< of the morph targets
+    RigShape* shape = nullptr;        ///< not null: takes the vertices as they were before the joints moved them
 };
 /// The triangles of one primitive in object space (in world space with joints); empty when there are none.
 Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose);

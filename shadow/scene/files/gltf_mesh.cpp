@@ -124,33 +124,40 @@ std::vector<Influences> find_influences(const Source& source) {
     }
 }
 
-// The mean of the joints' matrices at rest, by the vertex's weights.
-std::optional<dmat4> rest_matrix(const std::vector<Influences>& sets, std::size_t vertex, const Joints& matrices) {
-    dmat4 sum(0.0);
-    double total = 0.0;
-    for (const Influences& set : sets) {
-        if (vertex >= set.joints.size() || vertex >= set.weights.size()) {
-            continue;
-        }
-        const dvec4 names = set.joints.vector(vertex);
-        const dvec4 w = set.weights.vector(vertex);
-        for (int i = 0; i < 4; ++i) {
-            const bool exists = names[i] >= 0.0 && names[i] < static_cast<double>(matrices.size());
-            if (exists && w[i] > 0.0 && std::isfinite(w[i])) {
-                sum += w[i] * matrices[static_cast<std::size_t>(names[i])];
-                total += w[i];
+// The vertices before they are posed, and what holds each of them.
+void read_shape(File& file, const Source& source, const std::vector<std::uint32_t>& used, std::size_t joints,
+                const Mesh& mesh, RigShape& shape) {
+    constexpr std::size_t most_influences = std::size_t{1} << 27;
+    const std::vector<Influences> sets = find_influences(source);
+    shape.positions_os = mesh.positions_os;
+    shape.first.reserve(used.size() + 1);
+    shape.first.push_back(0);
+    for (const std::uint32_t vertex : used) {
+        for (const Influences& set : sets) {
+            if (vertex >= set.joints.size() || vertex >= set.weights.size()) {
+                continue;
+            }
+            const dvec4 names = set.joints.vector(vertex);
+            const vec4 w(set.weights.vector(vertex));
+            for (int i = 0; i < 4; ++i) {
+                const bool exists = names[i] >= 0.0 && names[i] < static_cast<double>(joints);
+                if (exists && w[i] > 0.0F && std::isfinite(w[i])) {
+                    shape.influences.push_back({static_cast<std::uint32_t>(names[i]), w[i]});
+                }
             }
         }
+        if (file.influences + shape.influences.size() > most_influences) {
+            fail("{}: joints hold vertices more than {} times", file.shown, most_influences);
+        }
+        shape.first.push_back(static_cast<std::uint32_t>(shape.influences.size()));
     }
-    return total > 0.0 ? std::optional(sum * (1.0 / total)) : std::nullopt;
+    file.influences += shape.influences.size();
 }
 
-void pose_by_joints(const Source& source, const std::vector<std::uint32_t>& used, const Joints& matrices, Mesh& mesh,
-                    std::vector<std::string>& notes) {
-    const std::vector<Influences> sets = find_influences(source);
+void pose_by_joints(const RigShape& shape, const Joints& matrices, Mesh& mesh, std::vector<std::string>& notes) {
     std::size_t loose = 0;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        const std::optional<dmat4> m = rest_matrix(sets, used[v], matrices);
+    for (std::size_t v = 0; v < mesh.positions_os.size(); ++v) {
+        const std::optional<dmat4> m = blend_joints(shape, v, matrices);
         if (!m) {
             ++loose;
             continue;
@@ -248,7 +255,10 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
     }
     morph(file, primitive, pose.weights, used, mesh);
     if (pose.joints != nullptr) {
-        pose_by_joints(source, used, *pose.joints, mesh, file.notes);
+        RigShape of_this;
+        RigShape& shape = pose.shape != nullptr ? *pose.shape : of_this;
+        read_shape(file, source, used, pose.joints->size(), mesh, shape);
+        pose_by_joints(shape, *pose.joints, mesh, file.notes);
     }
     return mesh;
 }

@@ -2,8 +2,6 @@
 // The node hierarchy: a forest, walked without recursion, multiplied out in double precision.
 #include "shadow/scene/files/gltf_data.h"
 
-#include <glm/gtc/quaternion.hpp>
-
 namespace gn::gltf {
 
 namespace {
@@ -13,20 +11,7 @@ double entry(const std::vector<double>& values, std::size_t index, double otherw
 }
 
 dmat4 local_matrix(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) {
-        dmat4 m(1.0);
-        for (std::size_t i = 0; i < 16; ++i) {
-            m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
-        }
-        return m;
-    }
-    const dvec3 t(entry(node.translation, 0, 0), entry(node.translation, 1, 0), entry(node.translation, 2, 0));
-    const dvec3 s(entry(node.scale, 0, 1), entry(node.scale, 1, 1), entry(node.scale, 2, 1));
-    glm::dquat r(entry(node.rotation, 3, 1), entry(node.rotation, 0, 0), entry(node.rotation, 1, 0),
-                 entry(node.rotation, 2, 0));
-    const double length = glm::length(r);
-    r = std::isfinite(length) && length > 1e-12 ? r / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
-    return glm::translate(dmat4(1.0), t) * glm::mat4_cast(r) * glm::scale(dmat4(1.0), s);
+    return gn::local_matrix(node_at_rest(node));
 }
 
 // KHR_node_visibility: what is hidden hides all below it.
@@ -90,6 +75,23 @@ std::vector<int> find_roots(const File& file, const std::vector<int>& parents) {
 
 }  // namespace
 
+RigNode node_at_rest(const tinygltf::Node& node) {
+    RigNode rest;
+    if (node.matrix.size() == 16) {
+        dmat4 m(1.0);
+        for (std::size_t i = 0; i < 16; ++i) {
+            m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+        }
+        rest.matrix = m;
+        return rest;
+    }
+    rest.translation = {entry(node.translation, 0, 0), entry(node.translation, 1, 0), entry(node.translation, 2, 0)};
+    rest.scale = {entry(node.scale, 0, 1), entry(node.scale, 1, 1), entry(node.scale, 2, 1)};
+    rest.rotation = glm::dquat(entry(node.rotation, 3, 1), entry(node.rotation, 0, 0), entry(node.rotation, 1, 0),
+                               entry(node.rotation, 2, 0));
+    return rest;
+}
+
 std::vector<PlacedNode> walk_nodes(const File& file) {
     const std::vector<int> parents = find_parents(file);
     check_loops(file, parents);
@@ -113,9 +115,10 @@ std::vector<PlacedNode> walk_nodes(const File& file) {
         const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
         node.ws_from_node = node.ws_from_node * local_matrix(data);
         node.visible = node.visible && !hides(data);
+        const int place = static_cast<int>(placed.size());
         placed.push_back(node);
         for (auto child = data.children.rbegin(); child != data.children.rend(); ++child) {
-            stack.push_back({*child, node.ws_from_node, node.visible});
+            stack.push_back({*child, node.ws_from_node, node.visible, place});
         }
     }
     return placed;

@@ -4,6 +4,7 @@
 #include "shadow/scene/files/files.h"
 #include "shadow/scene/files/upright.h"
 #include "shadow/scene/model.h"
+#include "shadow/scene/rig.h"
 
 #include <algorithm>
 
@@ -62,16 +63,39 @@ Model load_model(const std::filesystem::path& path, const Assets& assets, bool t
          clean_text(extension), toml_allowed ? " .toml" : "", fmt::join(through_assimp, " "));
 }
 
+namespace {
+
+// Where the vertices of every instance begin in the flat scene.
+void number_followers(Model& model) {
+    std::size_t vertex = 0;
+    for (const Instance& instance : model.instances) {
+        if (instance.follower) {
+            model.rig.followers[*instance.follower].first_vertex = static_cast<std::uint32_t>(vertex);
+        }
+        vertex += model.meshes[instance.mesh].positions_os.size();
+    }
+}
+
+}  // namespace
+
 Scene load_scene(const std::string& name_or_path, const LoadOptions& options) {
+    return load_animated_scene(name_or_path, options).scene;
+}
+
+AnimatedScene load_animated_scene(const std::string& name_or_path, const LoadOptions& options) {
     // A path is what exists or looks like one; everything else is a built-in name.
     const std::filesystem::path path(name_or_path);
     std::error_code error;
     const bool is_path = is_known(lower_extension(path)) || name_or_path.find('/') != std::string::npos ||
                          std::filesystem::exists(path, error);
-    Scene scene;
+    AnimatedScene loaded;
+    Scene& scene = loaded.scene;
     try {
         if (is_path) {
-            scene = flatten(load_upright(path, options));
+            Model model = load_upright(path, options);
+            scene = flatten(model);
+            number_followers(model);
+            loaded.rig = std::move(model.rig);
             scene.name = clean_text(path.stem().string());
         } else {
             scene = make_builtin_scene(name_or_path);
@@ -84,13 +108,17 @@ Scene load_scene(const std::string& name_or_path, const LoadOptions& options) {
         }
         LoadOptions finish = options;
         finish.ground = is_path ? options.ground : Ground{};
-        finish_scene(scene, finish);
+        const std::size_t vertices = scene.positions_ws.size();
+        const std::vector<std::uint32_t> copies = finish_and_copy(scene, finish);
+        if (loaded.rig.moves()) {
+            bind_rig(scene, loaded.rig, vertices, copies);
+        }
     } catch (const std::bad_alloc&) {
         fail("{}: not enough memory for the scene", clean_text(name_or_path));
     } catch (const std::length_error&) {
         fail("{}: not enough memory for the scene", clean_text(name_or_path));
     }
-    return scene;
+    return loaded;
 }
 
 }  // namespace gn
