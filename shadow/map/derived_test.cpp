@@ -320,5 +320,64 @@ void main() {
     }
 }
 
+/// Whether a rectangle holds a depth beyond a bound is told exactly, whatever squares it cuts and whether sides are odd.
+TEST(Derived, ARectanglesTexelsDecideAndNoOthers) {
+    const test::ValidationGuard guard;
+    constexpr std::size_t rectangles = 400;
+    for (const auto& [width, height] : {std::pair{64, 64}, {45, 27}}) {
+        Source source(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+        // Few texels lie beyond 0.9 or before 0.1, so that many rectangles hold none.
+        for (float& value : source.values) {
+            value = value < 0.01F || value > 0.99F ? value : 0.5F;
+        }
+        std::mt19937 random(5);
+        const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        std::vector<ivec4> asked;
+        for (std::size_t i = 0; i < rectangles; ++i) {
+            const ivec2 first(pick(0, width - 1), pick(0, height - 1));
+            asked.emplace_back(first, pick(first.x, std::min(first.x + 12, width - 1)),
+                               pick(first.y, std::min(first.y + 12, height - 1)));
+        }
+        FrameGraph graph(test::device());
+        const TextureHandle pyramid = add_min_max_pyramid(graph, source.draw(graph));
+        const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec2)});
+        graph.keep(answers);
+        ShaderInputs inputs;
+        inputs.texture("sampler2DArray", "pyramid", pyramid)
+            .block("readonly buffer", "Asked", "ivec4 asked[];", std::as_bytes(std::span(asked)))
+            .buffer("writeonly buffer", "Answers", "vec2 answers[];", answers);
+        graph.add_pass(
+            "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
+            [=](Recorder& r) {
+                r.bind(ComputeDesc{{ShaderKind::compute, "ask", inputs.text() + R"(
+#include "shadow/receiver/map_any.glsl"
+layout(local_size_x = 64) in;
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < asked.length()) {
+        ivec4 rectangle = asked[i];
+        answers[i] = vec2(gn_pyramid_any(pyramid, rectangle.xy, rectangle.zw, 1, 0.9, true) ? 1.0 : 0.0,
+                          gn_pyramid_any(pyramid, rectangle.xy, rectangle.zw, 1, 0.1, false) ? 1.0 : 0.0);
+    }
+}
+)"},
+                                   {}});
+                inputs.set(r);
+                r.dispatch((rectangles + 63) / 64, 1);
+            });
+        graph.execute(false);
+        const std::vector<vec2> read = pairs_of(graph.download(answers));
+        int any = 0;
+        for (std::size_t i = 0; i < rectangles; ++i) {
+            const vec2 exact = source.range(ivec2(asked[i]), ivec2(asked[i].z, asked[i].w), 1);
+            EXPECT_EQ(read[i].x == 1, exact.y >= 0.9F) << width << " x " << height << ", rectangle " << i;
+            EXPECT_EQ(read[i].y == 1, exact.x < 0.1F) << width << " x " << height << ", rectangle " << i;
+            any += read[i].x == 1 ? 1 : 0;
+        }
+        EXPECT_GT(any, 40);
+        EXPECT_LT(any, 360);
+    }
+}
+
 }  // namespace
 }  // namespace gn

@@ -229,6 +229,18 @@ GN_FN float gn_pcss_spread_at(GnLookup at, float receiver, float blocker) {
 }  // namespace gn::glsl
 #else
 
+// The least and greatest depth of the receiver's plane over a rectangle of the map: the plane is flat between its corners; a cone
+// lies below it, deepest at the corners.
+vec2 gn_pcss_plane(GnLookup at, vec2 middle_ts, vec2 half_ts) {
+    vec2 range = vec2(1.0e30, -1.0e30);
+    for (int k = 0; k < 4; ++k) {
+        vec2 corner_ts = middle_ts + half_ts * vec2((k & 1) == 0 ? -1.0 : 1.0, (k & 2) == 0 ? -1.0 : 1.0);
+        float plane = gn_depth_at(at.projected, corner_ts, at.bias);
+        range = vec2(min(range.x, plane), max(range.y, plane + gn_cone(at.projected, corner_ts - at.projected.uv_ts)));
+    }
+    return range;
+}
+
 // What the rectangle around the light's points holds through a plane at `spread`: the least depth, and whether all of it or
 // none of it hides the receiver's plane (1, 0), else -1.
 vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
@@ -243,17 +255,8 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
     if (!gn_within_view(at.projected, low_ts, high_ts)) {
         return vec2(found.x, -1.0);
     }
-    // The plane is flat between its corners; a cone lies below it, deepest at the corners.
-    vec2 corner_ts = reach_ts + at.projected.texel_ts;
-    float nearest = 1.0e30;
-    float farthest = -1.0e30;
-    for (int k = 0; k < 4; ++k) {
-        vec2 d_ts = corner_ts * vec2((k & 1) == 0 ? -1.0 : 1.0, (k & 2) == 0 ? -1.0 : 1.0);
-        float plane = gn_depth_at(at.projected, at.projected.uv_ts + d_ts, at.bias);
-        nearest = min(nearest, plane);
-        farthest = max(farthest, plane + gn_cone(at.projected, d_ts));
-    }
-    return vec2(found.x, farthest <= found.x ? 1.0 : nearest > found.y ? 0.0 : -1.0);
+    vec2 plane = gn_pcss_plane(at, at.projected.uv_ts, reach_ts + at.projected.texel_ts);
+    return vec2(found.x, plane.y <= found.x ? 1.0 : plane.x > found.y ? 0.0 : -1.0);
 }
 
 // Metres along the axis to what a tap holds: where tap_ts lies on the receiver's map, uv_ts on that of the tap's own view, and

@@ -36,10 +36,10 @@ const Part& lookup_vssm() {
                      "Parts along a side of a kernel: less bleeding and truer slopes, cost grows with its square."),
             GN_PARAM(GnVssmParams, least, real, 0, 16, "texels",
                      "Half width of the narrowest kernel: below one the map's texels show at contacts."),
-            GN_PARAM(
-                GnVssmParams, early_out, boolean, 0, 1, "",
-                "Skips the search where the least and greatest depth of its region say that all of the light is seen, "
-                "or none: less bleeding there, too."),
+            GN_PARAM(GnVssmParams, early_out, boolean, 0, 1, "",
+                     "Skips the search and the filter where the least and greatest depth of their region say that all "
+                     "of the "
+                     "light is seen, or none: V is the same."),
         });
         p.params_type = "GnVssmParams";
         p.glsl = "shadow/lookup/vssm/vssm.glsl";

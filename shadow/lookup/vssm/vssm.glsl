@@ -3,12 +3,13 @@
 // filters as wide as that makes the penumbra.
 // Based on: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010. [YDF+10]
 // Departs from it: any map that is filterable and tells its blockers serves; the parts of a kernel follow the receiver's plane, and
-// are always as many.
+// are always as many. Where the texels of a part agree, they say what of it is lit, and its moments are not asked.
 #ifndef GN_SHADOW_LOOKUP_VSSM_GLSL
 #define GN_SHADOW_LOOKUP_VSSM_GLSL
 
 #include "shadow/lookup/pcss/pcss_light.glsl"
 #include "shadow/lookup/vssm/vssm.h"
+#include "shadow/receiver/map_any.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -28,6 +29,18 @@ GN_FN float gn_vssm_share(bool square) { return square ? 1.0f : 0.8660254f; }
 
 // Half the sides of the box along the map's axes whose points lie as far from the middle along each of them as a parallelogram's.
 GN_FN vec2 gn_vssm_box(vec2 right_ts, vec2 up_ts) { return sqrt(right_ts * right_ts + up_ts * up_ts); }
+
+// Half the sides of the rectangle of the map around all of a kernel's parts.
+GN_FN vec2 gn_vssm_around(GnVssmKernel kernel, int side) {
+    return (1.0f - 1.0f / float(side)) * (abs(kernel.right_ts) + abs(kernel.up_ts)) + kernel.box_ts;
+}
+
+// How many times farther along the map's axes a kernel's parts lie than the light's points, at most: of a rectangle no farther,
+// of a disc share ((1 - 1/side)(|r| + |u|) + sqrt(r^2 + u^2)/side) against sqrt(r^2 + u^2), with |r| + |u| <= sqrt(2 (r^2 + u^2)).
+GN_FN float gn_vssm_overhang(bool square, int side) {
+    float part = 1.0f / float(side);
+    return square ? 1.0f : max(gn_vssm_share(false) * (1.41421356f * (1.0f - part) + part), 1.0f);
+}
 
 GN_FN GnVssmKernel gn_vssm_kernel(GnLookup at, GnPcssLight half_light, float spread, float least_ts, int side) {
     GnPcssKernel points = gn_pcss_kernel(at, half_light, spread);
@@ -73,6 +86,25 @@ GnLookup gn_vssm_beside(GnLookup at, vec2 middle_ts) {
     return beside;
 }
 
+// What the texels of a rectangle say where they agree: 1 that all of the receiver's plane is lit, 0 that none is, else -1.
+// `around`: where they are; `plane`: whose plane reaches there. Half a texel more, as the map's filter reads.
+float gn_vssm_agreed(GnLookup plane, GnLookup around, sampler2DArray pyramid, vec2 half_ts) {
+    GnProjected projected = around.projected;
+    half_ts += 0.5 * projected.texel_ts;
+    vec2 low_ts = projected.uv_ts - half_ts;
+    vec2 high_ts = projected.uv_ts + half_ts;
+    if (!gn_within_view(projected, low_ts, high_ts)) {
+        return -1.0;
+    }
+    ivec2 first = ivec2(floor(low_ts / projected.texel_ts));
+    ivec2 last = max(ivec2(floor(min(high_ts, projected.bounds_ts.zw - 0.5 * projected.texel_ts) / projected.texel_ts)), first);
+    vec2 range = gn_pcss_plane(plane, projected.uv_ts, half_ts + projected.texel_ts);
+    if (!gn_pyramid_any(pyramid, first, last, projected.layer, range.x, true)) {
+        return 0.0;
+    }
+    return gn_pyramid_any(pyramid, first, last, projected.layer, range.y, false) ? -1.0 : 1.0;
+}
+
 struct GnVssmFound {
     float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
     float receiver;    // metres along the axis
@@ -82,7 +114,12 @@ struct GnVssmFound {
 // What hides the light in each part of the region where anything can, and how far away it is.
 GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnVssmParams params) {
     GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
+    // The region holds all that the parts read, or its extremes would decide on fewer texels than they do. Two axes reach as far
+    // along one of the map's as both are long.
+    float overhang = gn_vssm_overhang(half_light.square, params.side);
+    GnPcssLight parts_light = GnPcssLight(overhang * half_light.right_ws, overhang * half_light.up_ws, half_light.square);
+    float more = 2.0 * overhang * params.least + 0.5;
+    GnPcssRegion region = gn_pcss_region(at, pyramid, parts_light, metres, more, params.early_out != 0);
     GnVssmFound result = GnVssmFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
@@ -102,7 +139,10 @@ GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half
         distance += found.x * gn_pcss_seen(at, part, metres, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
     }
     if (hidden <= 1.0e-3 * float(parts)) {
-        result.visibility = 1.0;
+        // Moments that find nothing are wrong where all texels hide the light.
+        bool all_hidden = gn_vssm_agreed(at, at, pyramid, gn_vssm_around(kernel, params.side)) == 0.0;
+        result.visibility = all_hidden ? -1.0 : 1.0;
+        result.blocker = min(region.nearest, region.receiver);
         return result;
     }
     result.blocker = clamp(distance / hidden, min(region.nearest, region.receiver), region.receiver);
@@ -124,8 +164,12 @@ float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams param
     float lit = 0.0;
     for (int i = 0; i < parts; ++i) {
         vec2 q = gn_vssm_part(i, params.side);
-        GnLookup part = gn_vssm_beside(at, at.projected.uv_ts + q.x * kernel.right_ts + q.y * kernel.up_ts);
-        lit += GN_MAP_VISIBILITY(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
+        vec2 middle_ts = at.projected.uv_ts + q.x * kernel.right_ts + q.y * kernel.up_ts;
+        GnLookup part = gn_vssm_beside(at, middle_ts);
+        bool within = gn_within_view(at.projected, middle_ts, middle_ts);
+        float agreed = gn_vssm_agreed(within ? at : part, part, pyramid, kernel.box_ts);
+        lit += agreed >= 0.0 ? agreed
+                             : GN_MAP_VISIBILITY(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
     }
     return lit / float(parts);
 }

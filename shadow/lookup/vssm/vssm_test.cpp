@@ -60,6 +60,58 @@ TEST(VssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
     }
 }
 
+TEST(Vssm, TheSearchedRectangleHoldsAllParts) {
+    // Of a disc as the light's points reach, of a rectangle as both of its axes do; then the kernel's parts.
+    for (const bool square : {false, true}) {
+        for (const int side : {1, 2, 3, 8}) {
+            float most = 0;
+            for (int turn = 0; turn < 64; ++turn) {
+                const float a = 0.1F * static_cast<float>(turn);
+                const vec2 right(std::cos(a), std::sin(a)), up(-right.y, 0.7F * right.x);
+                GnVssmKernel kernel;
+                kernel.right_ts = gn_vssm_share(square) * right;
+                kernel.up_ts = gn_vssm_share(square) * up;
+                kernel.box_ts = gn_vssm_box(kernel.right_ts, kernel.up_ts) / static_cast<float>(side);
+                const vec2 reach = square ? abs(right) + abs(up) : gn_vssm_box(right, up);
+                const vec2 parts = gn_vssm_around(kernel, side) / reach;
+                most = std::max({most, parts.x, parts.y});
+                for (int i = 0; i < side * side; ++i) {
+                    const vec2 q = gn_vssm_part(i, side);
+                    const vec2 end = abs(q.x * kernel.right_ts + q.y * kernel.up_ts) + kernel.box_ts;
+                    EXPECT_LE(end.x, gn_vssm_around(kernel, side).x + 1e-6F);
+                    EXPECT_LE(end.y, gn_vssm_around(kernel, side).y + 1e-6F);
+                }
+            }
+            EXPECT_LE(most, gn_vssm_overhang(square, side) + 1e-6F) << square << ", " << side;
+        }
+    }
+}
+
+/// Whatever the extremes of a region decide, the parts of a kernel within it say: V does not jump where a map's texels fall
+/// otherwise into the squares of its pyramid. Under moments that bleed, of boxes and of mips, which reach beyond them.
+TEST(VssmRendered, EarlyOutsSkipWorkAndChangeNothing) {
+    for (const auto& [scene, recipe] : {std::pair{"overlap", "vssm"},
+                                        {"half-plane:light=spot", "vssm,map=evsm"},
+                                        {"slab:light=directional", "vssm"},
+                                        {"contact:radius=0.5", "vssm,vssm.side=1,vssm.least=0"}}) {
+        const std::string both = fmt::format("{},resolution=256", recipe);
+        const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+        const auto with = test::compare(scene, both, size);
+        const auto without = test::compare(scene, both + ",vssm.early_out=false", size);
+        int differ = 0, decided = 0;
+        float most = 0;
+        for (std::size_t i = 0; i < with.visibility().values.size(); ++i) {
+            const float v = with.visibility().values[i];
+            const float apart = std::abs(v - without.visibility().values[i]);
+            decided += v == 0 || v == 1 ? 1 : 0;
+            differ += apart > 1e-6F ? 1 : 0;
+            most = std::max(most, apart);
+        }
+        EXPECT_EQ(differ, 0) << scene << " by " << recipe << ", by " << most << " at most";
+        EXPECT_GT(decided, 1000) << scene << " by " << recipe;
+    }
+}
+
 /// Every part of a kernel meets the plane where it is, so that a slope is no blocker of its own.
 TEST(VssmRendered, ASlopeDoesNotShadeItself) {
     const auto c = test::compare("tilted:angle=75", "vssm,resolution=256", {.width = 64, .height = 48, .samples = 1});
