@@ -121,8 +121,8 @@ Guard with_bias(Guard guard, const GnBias& bias, const GnLightView& view) {
     // As gn_biased moves them; what it moves along the rays stays where it is on the map.
     const float kernel = bias.receiver_plane == 0 ? 2 * std::abs(bias.kernel) : 0.0F;
     const float unit = texel + kernel * std::max(guard.texels * texel, guard.metres);
-    guard.metres += (std::abs(bias.normal) + std::abs(bias.view)) * unit + std::abs(bias.normal_world) +
-                    std::abs(bias.view_world);
+    guard.metres +=
+        (std::abs(bias.normal) + std::abs(bias.view)) * unit + std::abs(bias.normal_world) + std::abs(bias.view_world);
     return guard;
 }
 

@@ -101,7 +101,8 @@ TEST(Culled, FaintLightsShineWithoutAShadow) {
         EXPECT_EQ(says(frame, "lamp"), faint) << candela;
         EXPECT_FALSE(says(frame, "sun"));
         const std::string told = faint ? "none" : "pcf";
-        const std::vector<float> expected = frame_of(scene, told + (faint ? "" : ",resolution=256")).visibility[1].values;
+        const std::vector<float> expected =
+            frame_of(scene, told + (faint ? "" : ",resolution=256")).visibility[1].values;
         EXPECT_EQ(frame.visibility[1].values, expected) << candela;
     }
 }

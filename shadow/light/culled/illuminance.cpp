@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/light/culled/illuminance.h"
 
+#include "base/math.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +12,7 @@ namespace {
 
 /// Of the light's colour, as its intensity counts it (Rec. 709).
 double brightness(const GnLight& light) {
-    return static_cast<double>(light.intensity) *
-           glm::dot(dvec3(light.color), dvec3(0.2126, 0.7152, 0.0722));
+    return static_cast<double>(light.intensity) * glm::dot(dvec3(light.color), dvec3(0.2126, 0.7152, 0.0722));
 }
 
 /// How far the light itself reaches from its centre, metres.
@@ -29,10 +30,10 @@ double most_illuminance(const GnLight& light, const Reach& reach) {
     if (distance <= 0) {
         return std::numeric_limits<double>::infinity();
     }
-    const double candela = light.kind == GN_LIGHT_RECTANGLE ? brightness(light) * 4 *
-                                                                  static_cast<double>(light.half_size.x) *
-                                                                  static_cast<double>(light.half_size.y)
-                                                            : brightness(light);
+    const double candela =
+        light.kind == GN_LIGHT_RECTANGLE
+            ? brightness(light) * 4 * static_cast<double>(light.half_size.x) * static_cast<double>(light.half_size.y)
+            : brightness(light);
     return candela / (distance * distance);
 }
 

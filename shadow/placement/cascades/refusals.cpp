@@ -45,19 +45,23 @@ std::string refuses_mask(const Scene& scene, const Light& light, const Recipe& r
         return {};
     }
     if (by_samples(params) || params.scroll != 0 || params.rate > 1) {
-        return "cascades.mask asks what is seen of each slice in this frame, which splits by samples make on the device, "
+        return "cascades.mask asks what is seen of each slice in this frame, which splits by samples make on the "
+               "device, "
                "and cascades.scroll and cascades.rate keep maps for other frames; use cascades.mask=0, or none of them";
     }
     if (params.fit == GN_FIT_WARPED) {
-        return "cascades.mask measures kernels by the texels of a map, which are of one size on plain, fitted and stable "
+        return "cascades.mask measures kernels by the texels of a map, which are of one size on plain, fitted and "
+               "stable "
                "maps alone; use one of these for cascades.fit";
     }
     if (!knows_what_is_seen(scene)) {
-        return "cascades.mask asks which objects the camera sees, which a renderer that lends its casters does not say; "
+        return "cascades.mask asks which objects the camera sees, which a renderer that lends its casters does not "
+               "say; "
                "use cascades.mask=0";
     }
     if (recipe.direct != nullptr || recipe.lookup == nullptr || recipe.translucent_map != nullptr) {
-        return "cascades.mask leaves out what the kernels of one lookup never read, and this recipe has a direct part or "
+        return "cascades.mask leaves out what the kernels of one lookup never read, and this recipe has a direct part "
+               "or "
                "a second map; use cascades.mask=0";
     }
     const std::vector<std::string_view> needs = needs_of(recipe);
