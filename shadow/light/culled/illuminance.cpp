@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/light/culled/illuminance.h"
 
+#include "base/math.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

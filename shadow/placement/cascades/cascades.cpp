@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several maps for one sun: the view is split along its axis, each slice has a layer of its own.
+// Several maps for one sun: the view is split along its axis, each slice has a map of its own.
 // Also here: cascade_views.h, cascade_views.cpp (slices and the views around them), stable.cpp (windows of a fixed grid),
 // keep.cpp (maps kept over frames), refusals.cpp (what it cannot do), sdsm.h, sdsm.cpp (splits and views from the samples),
 // its passes sdsm_steps.glsl, sdsm_samples.glsl, sdsm_distances.glsl, sdsm_splits.glsl, sdsm_bounds.glsl, sdsm_views.glsl;
