@@ -59,7 +59,8 @@ std::string why_not_kept(const Recipe& recipe) {
     }
     if (recipe.map->id != "depth") {
         return fmt::format(
-            "placement 'adaptive' keeps tiles of depths, and map '{}' stores other things: all tiles are drawn in every "
+            "placement 'adaptive' keeps tiles of depths, and map '{}' stores other things: all tiles are drawn in "
+            "every "
             "frame; map = depth keeps them",
             recipe.map->id);
     }
@@ -143,8 +144,8 @@ KeptTiles kept_tiles(const FrameInput& input, const Keeping& keeping, const Ligh
     KeptTiles kept;
     kept.redrawn = keeping.redrawn;
     if (keeping.history == nullptr) {
-        kept.now = input.graph.create(
-            {.name = desc.name, .format = desc.format, .width = desc.width, .height = desc.height});
+        kept.now =
+            input.graph.create({.name = desc.name, .format = desc.format, .width = desc.width, .height = desc.height});
         return kept;
     }
     const History::Pair pair = keeping.history->pair(desc);
