@@ -32,11 +32,12 @@ bool are_pages(const LightViews& views) {
     return views.tiles && views.kept.has_value() && drawn_pages(views) != nullptr;
 }
 
-TextureDesc page_pool(std::string_view name, std::uint32_t resolution) {
+TextureDesc page_pool(std::string_view name, std::uint32_t resolution, std::uint32_t layers) {
     return {.name = std::string(name),
             .format = VK_FORMAT_D32_SFLOAT,
             .width = resolution,
             .height = resolution,
+            .layers = layers,
             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
 }
@@ -49,26 +50,29 @@ void add_page_passes(const FrameInput& input, const Recipe& recipe, const LightV
     const BufferHandle quads = add_tile_draw(input, drawn, tile_quad_vertices);
     const ShaderInputs quad_inputs = view_list(drawn);
     const auto clear = made_once(input.prepared, "clear pages", 0, clear_pipeline);
-    const CasterDraw draw{caster_job(input, recipe, drawn, pass)};
+    const std::shared_ptr<const CasterJob> job = caster_job(input, recipe, drawn, pass);
     const bool keeps = views.kept->history != nullptr;
-    input.graph.add_pass(
-        pass.name,
-        [&](PassBuilder& builder) {
-            builder.depth(pass.depth, keeps ? Load::keep : Load::clear, {.depth = 1.0F}, one_layer(0));
-            builder.indirect(quads);
-            quad_inputs.declare(builder);
-            draw.declare(builder);
-        },
-        [=](Recorder& r) {
-            r.bind(*clear);
-            quad_inputs.set(r);
-            r.push_value(std::int32_t{0});
-            r.draw_indirect(quads);
-            draw.record(r);
-        });
+    for (std::uint32_t layer = 0; layer < views.layers; ++layer) {
+        const CasterDraw draw{job, layer};
+        input.graph.add_pass(
+            pass.name,
+            [&](PassBuilder& builder) {
+                builder.depth(pass.depth, keeps ? Load::keep : Load::clear, {.depth = 1.0F}, one_layer(layer));
+                builder.indirect(quads);
+                quad_inputs.declare(builder);
+                draw.declare(builder);
+            },
+            [=](Recorder& r) {
+                r.bind(*clear);
+                quad_inputs.set(r);
+                r.push_value(static_cast<std::int32_t>(layer));
+                r.draw_indirect(quads);
+                draw.record(r);
+            });
+    }
     if (keeps) {
         input.graph.place(pass.depth, [&](const TextureDesc& wanted) -> Texture2D& {
-            const TextureDesc pool = page_pool(views.kept->name, views.resolution);
+            const TextureDesc pool = page_pool(views.kept->name, views.resolution, views.layers);
             GN_CHECK((wanted.usage & ~pool.usage) == 0U);
             bool fresh = false;
             return views.kept->history->texture(pool, fresh);

@@ -14,7 +14,7 @@ bool are_pages(const LightViews& views);
 
 /// The kept texture behind the depth attachment of such a map, by the name that LightViews::kept has. A placement asks for it
 /// too, since its pages are as fresh as the texture.
-TextureDesc page_pool(std::string_view name, std::uint32_t resolution);
+TextureDesc page_pool(std::string_view name, std::uint32_t resolution, std::uint32_t layers = 1);
 
 /// Clears and draws the views of the table into a map that is kept where there is a history, else into an empty one.
 void add_page_passes(const FrameInput& input, const Recipe& recipe, const LightViews& views, const CasterPass& pass);

@@ -52,6 +52,31 @@ Box find_seen_bounds(const FrameInput& input) {
     return seen.empty() ? input.scene.bounds_ws : seen;
 }
 
+/// ∩ L: within the light's range, before a rectangle's plane, inside a spot's pyramid.
+ConvexBody lit_part(ConvexBody body, const GnLight& light) {
+    const dvec3 axis(vec3(light.direction_ws));
+    const dvec3 eye(vec3(light.position_ws));
+    for (int side = 0; side < 6 && light.kind != GN_LIGHT_DIRECTIONAL && light.range > 0; ++side) {
+        dvec3 normal(0);
+        normal[side / 2] = side % 2 == 0 ? 1 : -1;
+        body = clip(body, {normal, static_cast<double>(light.range) - glm::dot(normal, eye)});
+    }
+    if (light.kind == GN_LIGHT_RECTANGLE || light.kind == GN_LIGHT_SPOT) {
+        body = clip(body, {axis, -glm::dot(axis, eye)});
+    }
+    if (light.kind == GN_LIGHT_SPOT && light.cos_outer > 0.1F) {
+        const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
+        vec3 x;
+        vec3 y;
+        complete_frame(vec3(light.direction_ws), x, y);
+        for (const dvec3 side : {dvec3(x), -dvec3(x), dvec3(y), -dvec3(y)}) {
+            const dvec3 normal = tangent * axis + side;
+            body = clip(body, {normal, -glm::dot(normal, eye)});
+        }
+    }
+    return body;
+}
+
 }  // namespace
 
 FrameInput remembering(const FrameInput& input) {
@@ -89,34 +114,13 @@ ConvexBody potential_receivers(const FrameInput& input) {
 ConvexBody potential_receivers(const FrameInput& input, double near, double far) {
     // S ∩ V: the scene's box cut by the camera's frustum.
     const Box box_ws = seen_bounds(input);
-    if (box_ws.empty()) {
-        return {};
-    }
-    ConvexBody body = seen_of(box_ws, frustum_of(input, near, far));
+    return box_ws.empty() ? ConvexBody{}
+                          : lit_part(seen_of(box_ws, frustum_of(input, near, far)), input.whole_light().shape);
+}
 
-    // ∩ L: within the light's range, before a rectangle's plane, inside a spot's pyramid.
-    const GnLight& light = input.whole_light().shape;
-    const dvec3 axis(vec3(light.direction_ws));
-    const dvec3 eye(vec3(light.position_ws));
-    for (int side = 0; side < 6 && light.kind != GN_LIGHT_DIRECTIONAL && light.range > 0; ++side) {
-        dvec3 normal(0);
-        normal[side / 2] = side % 2 == 0 ? 1 : -1;
-        body = clip(body, {normal, static_cast<double>(light.range) - glm::dot(normal, eye)});
-    }
-    if (light.kind == GN_LIGHT_RECTANGLE || light.kind == GN_LIGHT_SPOT) {
-        body = clip(body, {axis, -glm::dot(axis, eye)});
-    }
-    if (light.kind == GN_LIGHT_SPOT && light.cos_outer > 0.1F) {
-        const double tangent = std::tan(std::acos(static_cast<double>(light.cos_outer)));
-        vec3 x;
-        vec3 y;
-        complete_frame(vec3(light.direction_ws), x, y);
-        for (const dvec3 side : {dvec3(x), -dvec3(x), dvec3(y), -dvec3(y)}) {
-            const dvec3 normal = tangent * axis + side;
-            body = clip(body, {normal, -glm::dot(normal, eye)});
-        }
-    }
-    return body;
+ConvexBody lit_bounds(const FrameInput& input) {
+    const Box box_ws = seen_bounds(input);
+    return box_ws.empty() ? ConvexBody{} : lit_part(seen_of(box_ws, {}), input.whole_light().shape);
 }
 
 double farthest(const Box& box_ws, vec3 p_ws) {

@@ -34,6 +34,9 @@ ConvexBody potential_receivers(const FrameInput& input);
 /// The same between two distances along the camera's axis (one cascade).
 ConvexBody potential_receivers(const FrameInput& input, double near, double far);
 
+/// L ∩ S: what the light reaches of the box around what the camera can see, wherever in it the camera looks.
+ConvexBody lit_bounds(const FrameInput& input);
+
 /// Distance from a point to the farthest corner of the box.
 double farthest(const Box& box_ws, vec3 p_ws);
 /// How far a light with a position must see: to the farthest of what the camera can see, or to the light's range, beyond

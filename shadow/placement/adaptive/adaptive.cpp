@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tiles at the resolution that the picture asks for: a quadtree over the light's map, of which the GPU finds every frame which
 // tiles the view samples need, and packs them into an atlas.
-// Also here: tree.h, tree_passes.h, tree_passes.cpp (which tiles there are), refine.h, refine.cpp (rounds of looking at them), its passes tree_nodes.glsl, tree_requests.glsl,
-// tree_weights.glsl, tree_grid.glsl, tree_needed.glsl, tree_cut.glsl, tree_rank.glsl, tree_counts.glsl, tree_sums.glsl, tree_tiles.glsl.
+// Also here: tree.h, tree_passes.h, tree_passes.cpp (which tiles there are), refine.h, refine.cpp (rounds of looking at them),
+// kept_tiles.h, kept_tiles.cpp (what outlives a frame), its passes tree_nodes.glsl, tree_requests.glsl, tree_weights.glsl, tree_grid.glsl,
+// tree_needed.glsl, tree_cut.glsl, tree_rank.glsl, tree_counts.glsl, tree_sums.glsl, tree_tiles.glsl, tree_view.glsl; of kept tiles
+// tree_places.glsl, tree_hold.glsl, tree_order.glsl, tree_describe.glsl.
 //
 // Based on: Lefohn, Sengupta, Owens. Resolution-Matched Shadow Maps. ACM Transactions on Graphics 26(4), 2007. [LSO07]
 // Departs from it: demands are counted in place where the paper sorts them; tiles have a border for kernels; and over the budget
@@ -11,6 +13,7 @@
 
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/adaptive/adaptive.glsl"
+#include "shadow/placement/adaptive/kept_tiles.h"
 #include "shadow/placement/adaptive/refine.h"
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
@@ -85,10 +88,9 @@ GnLightView squared(GnLightView view) {
     return view;
 }
 
-/// The views of whole maps: around the potential receivers, or six faces where these surround the light.
-LightViews whole_maps(const FrameInput& input, const Guard& guard, const Atlas& atlas) {
+/// The views of whole maps: around all that may receive, or six faces where this surrounds the light.
+LightViews maps_around(ConvexBody body, const FrameInput& input, const Guard& guard, const Atlas& atlas) {
     const GnLight& light = input.light().shape;
-    ConvexBody body = potential_receivers(input);
     if (body.empty()) {
         // Nothing can receive: any view will do.
         body = body_of(Box{vec3(-1), vec3(1)});
@@ -101,16 +103,39 @@ LightViews whole_maps(const FrameInput& input, const Guard& guard, const Atlas& 
     LightViews maps;
     if (light.kind == GN_LIGHT_DIRECTIONAL) {
         maps.kind = ViewKind::affine;
-        maps.views = {squared(fit_orthographic(body, light, texels, bare))};
+        maps.views = {fit_orthographic(body, light, texels, bare)};
         return maps;
     }
     const Fitted fitted = fit_perspective(body, light, texels, bare);
     if (fitted.valid) {
-        maps.views = {squared(fitted.view)};
+        maps.views = {fitted.view};
         return maps;
     }
     bare.metres = 0;
     add_cube_views(maps, input, bare, texels);
+    return maps;
+}
+
+void square(LightViews& maps) {
+    for (GnLightView& view : maps.views) {
+        view = squared(view);
+    }
+}
+
+/// Maps around what the camera sees. Those of the frame before stay while they show as much; where they do not, maps around
+/// all that the light reaches follow, so that they then can stay.
+LightViews whole_maps(const FrameInput& input, const Guard& guard, const Atlas& atlas,
+                      const adaptive::KeptTree* before) {
+    LightViews maps = maps_around(potential_receivers(input), input, guard, atlas);
+    if (before != nullptr) {
+        if (adaptive::serves(*before, maps)) {
+            maps.views = before->maps;
+            maps.kind = before->kind;
+            return maps;
+        }
+        maps = maps_around(lit_bounds(input), input, guard, atlas);
+    }
+    square(maps);
     return maps;
 }
 
@@ -184,25 +209,30 @@ void tell_coarser(const FrameInput& input, const GnTreeConstants& t, BufferHandl
     });
 }
 
-LightViews views_by(const FrameInput& input, const Recipe& recipe, const GnTreeConstants& constants,
-                    const LightViews& maps, const adaptive::TreeTiles& made) {
+/// The atlas, and what is known of its views.
+LightViews atlas_views(const FrameInput& input, const Recipe& recipe, const GnTreeConstants& constants,
+                       const LightViews& maps) {
     LightViews views;
     views.part = &recipe.placement_for(input.whole_light().shape);
     views.kind = maps.kind;
     views.resolution = static_cast<std::uint32_t>(recipe.resolution);
     views.layers = static_cast<std::uint32_t>(recipe.of<GnAdaptiveParams>("adaptive").maps);
     views.tiles = true;
-    views.buffer = made.views;
-    views.count = made.count;
     GnLightView unknown;
     unknown.resolution = static_cast<float>(recipe.resolution);
     // Shaders are composed for lists of views that are short, and whether a kernel has a radius in metres is a scene's affair: none
     // is that short.
     views.views.assign(static_cast<std::size_t>(std::max(constants.tiles, fewest_views)), unknown);
-    views.tables = {{.name = "pages", .type = "uint", .buffer = made.pages, .bytes = {}},
-                    {.name = "rows", .type = "vec4", .buffer = {}, .bytes = bytes_of(clip_rows(maps.views))}};
     views.set_data(constants.data);
     return views;
+}
+
+/// What the GPU makes of them.
+void lend(LightViews& views, const adaptive::TreeTiles& made, const LightViews& maps) {
+    views.buffer = made.views;
+    views.count = made.count;
+    views.tables = {{.name = "pages", .type = "uint", .buffer = made.pages, .bytes = {}},
+                    {.name = "rows", .type = "vec4", .buffer = {}, .bytes = bytes_of(clip_rows(maps.views))}};
 }
 
 LightViews place_adaptive(const FrameInput& input, const Recipe& recipe) {
@@ -216,7 +246,14 @@ LightViews place_adaptive(const FrameInput& input, const Recipe& recipe) {
             "of at least {}, or 0, which chooses one, and a resolution not below it",
             atlas.border, atlas.tile, std::bit_ceil(static_cast<unsigned>(4 * atlas.border)));
     }
-    const LightViews maps = whole_maps(input, guard, atlas);
+    adaptive::KeptTree tree = adaptive::tree_of(input);
+    tree.tile = atlas.tile;
+    tree.border = atlas.border;
+    tree.tiles = atlas.tiles;
+    tree.levels = params.levels;
+    const bool keeps = adaptive::keeps_tiles(recipe);
+    const LightViews maps =
+        whole_maps(input, guard, atlas, keeps ? adaptive::tree_before(input, recipe, tree) : nullptr);
     if (static_cast<std::size_t>(atlas.tiles) < maps.views.size()) {
         refuse(
             "placement 'adaptive' looks at light '{}' by {} maps, and its budget holds {} tiles; use more "
@@ -225,19 +262,32 @@ LightViews place_adaptive(const FrameInput& input, const Recipe& recipe) {
             input.light().name, maps.views.size(), atlas.tiles);
     }
     const GnTreeConstants constants = constants_of(input, recipe, maps, guard, atlas);
-    const auto views_of = [&](const adaptive::TreeTiles& made) {
-        return views_by(input, recipe, constants, maps, made);
+    tree.maps = maps.views;
+    tree.kind = maps.kind;
+    const adaptive::Keeping keeping = keeps ? adaptive::keep_tree(input, recipe, std::move(tree)) : adaptive::Keeping{};
+    BufferHandle counts;
+    const adaptive::TilesOf tiles_of = [&](const GnTreeConstants& t, BufferHandle changed, int round) {
+        LightViews views = atlas_views(input, recipe, t, maps);
+        const std::optional<adaptive::KeptTiles> kept =
+            keeps ? std::optional(adaptive::kept_tiles(input, keeping, views, round)) : std::nullopt;
+        const adaptive::TreeTiles made = adaptive::add_tree(input, t, changed, kept ? &*kept : nullptr);
+        lend(views, made, maps);
+        if (keeps) {
+            adaptive::keep_views(input, keeping, made, round, views);
+        }
+        counts = made.counts;
+        return views;
     };
     const bool refines = params.mode == GN_ADAPTIVE_ASM || params.mode == GN_ADAPTIVE_QVSM;
     const BufferHandle changed =
         refines ? adaptive::add_refinement(input, recipe, constants, constants.limit - constants.start,
-                                           params.mode == GN_ADAPTIVE_ASM, views_of)
+                                           params.mode == GN_ADAPTIVE_ASM, tiles_of)
                 : BufferHandle{};
-    const adaptive::TreeTiles made = adaptive::add_tree(input, constants, changed);
+    LightViews views = tiles_of(constants, changed, -1);
     if (input.parent == nullptr) {
-        tell_coarser(input, constants, made.counts);
+        tell_coarser(input, constants, counts);
     }
-    return views_of(made);
+    return views;
 }
 
 ParamTable rows() {
@@ -270,7 +320,17 @@ ParamTable rows() {
         GN_PARAM(GnAdaptiveParams, threshold, real, -1, 1, "of the picture",
                  "With qvsm: pixels that the last refinement must have changed in a tile for the next one; -1 refines "
                  "always."),
+        GN_CHOICE(
+            GnAdaptiveParams, kept,
+            "What outlives a frame of a sequence: nothing; tiles that are still asked for and in which no caster "
+            "moved, which are not drawn again; or only their places in the atlas, all drawn anew, as a measure for "
+            "the former.",
+            "none", "tiles", "places"),
     });
+}
+
+std::string remark(const Scene&, const Recipe& recipe) {
+    return adaptive::why_not_kept(recipe);
 }
 
 }  // namespace
@@ -289,6 +349,7 @@ const Part& placement_adaptive() {
         p.data_type = "GnAdaptiveData";
         p.glsl = "shadow/placement/adaptive/adaptive.glsl";
         p.place = place_adaptive;
+        p.remark = remark;
         return p;
     }();
     return part;

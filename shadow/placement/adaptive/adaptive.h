@@ -11,6 +11,10 @@
 #define GN_ADAPTIVE_ASM 3
 #define GN_ADAPTIVE_QVSM 4
 
+#define GN_ADAPTIVE_NONE 0
+#define GN_ADAPTIVE_TILES 1
+#define GN_ADAPTIVE_PLACES 2
+
 struct GnAdaptiveParams {
     int mode GN_DEFAULT(GN_ADAPTIVE_RMSM);
     int maps GN_DEFAULT(4);                ///< the budget, in maps of the recipe's resolution
@@ -22,6 +26,7 @@ struct GnAdaptiveParams {
     int start GN_DEFAULT(3);               ///< asm, qvsm: the level that all samples get
     int rounds GN_DEFAULT(5);              ///< asm, qvsm: levels that are tried beyond it
     float threshold GN_DEFAULT(0.00002f);  ///< qvsm: share of the picture that must change in a tile; -1: none
+    int kept GN_DEFAULT(GN_ADAPTIVE_NONE);
 };
 
 /// What the choice of a tile is given.

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Levels in closed form, tiles within their budget, and what they show against one map and against the truth.
 #include "shadow/placement/adaptive/adaptive.glsl"
+#include "shadow/frame/history.h"
 #include "shadow/placement/adaptive/tree.h"
+#include "shadow/scene/move.h"
 #include "shadow/show/show.h"
+#include "tests/direct_scenes.h"
 #include "tests/near_edges.h"
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -308,6 +313,95 @@ TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
     }
     EXPECT_EQ(unexplained, 0U) << "of " << wrong;
 }
+
+/// A large box and a small one far from it, on a ground that is wider than both.
+Scene two_boxes() {
+    by_hand::SceneBuilder b;
+    b.ground(8).box({-3, 0.5F, -1}, {-1.5F, 2.5F, 1}).box({3, 0.5F, 2}, {3.5F, 1, 2.5F});
+    b.light(by_hand::sun({0.3F, -1, 0.2F}));
+    Scene scene = b.scene();
+    scene.cameras = {{.position_ws = vec3(0, 9, 9), .forward_ws = glm::normalize(vec3(0, -1, -1))}};
+    return scene;
+}
+
+/// Frames of a recipe with a history of their own.
+struct Sequence {
+    SceneGpu& gpu;
+    History history{device()};
+    PreparedRecipe recipe;
+    Sequence(SceneGpu& scene, const std::string& text) : gpu(scene), recipe(device(), load_recipe(text)) {}
+    std::vector<float> draw(const Camera& camera) {
+        const FrameResult frame = render_frame(
+            gpu, camera, recipe, {.width = 96, .height = 64, .only_light = 0, .picture = false, .history = &history});
+        EXPECT_EQ(frame.refused.front(), "");
+        return frame.visibility.front().values;
+    }
+    /// Tiles that the latest frame drew, those of rounds of refinement among them.
+    [[nodiscard]] std::uint32_t drawn() {
+        const std::string tiles = "tiles of light 0 " + recipe.recipe().name;
+        std::uint32_t sum = *history.answered(tiles + ", drawn");
+        for (int round = 0; round < 8; ++round) {
+            sum += *history.answered(fmt::format("{} round {}, drawn", tiles, round));
+        }
+        return sum;
+    }
+};
+
+class TilesKept : public testing::TestWithParam<const char*> {};
+
+/// [FFBG01]: what is asked for again and did not change is not drawn, and shows what it would show drawn anew, to the bit.
+TEST_P(TilesKept, AreDrawnWhereACasterMovedAndNowhereElse) {
+    const test::ValidationGuard guard;
+    Scene scene = two_boxes();
+    SceneGpu gpu = upload_scene(device(), scene);
+    const std::string text = fmt::format(
+        "hard,placement=adaptive,adaptive.mode={},resolution=512,adaptive.maps=2,adaptive.tile=64,adaptive.levels=5,"
+        "adaptive.start=1,adaptive.rounds=2,adaptive.kept=",
+        GetParam());
+    Sequence kept(gpu, text + "tiles"), redrawn(gpu, text + "places"), without(gpu, text + "none");
+    Camera camera = scene.cameras.front();
+
+    // A view that rests: one frame draws, as without a cache.
+    const std::vector<float> first = kept.draw(camera);
+    const std::uint32_t all = kept.drawn();
+    EXPECT_GT(all, 8U);
+    EXPECT_EQ(without.draw(camera), first);
+    EXPECT_EQ(redrawn.draw(camera), first);
+    for (int frame = 1; frame < 3; ++frame) {
+        EXPECT_EQ(kept.draw(camera), first);
+        EXPECT_EQ(kept.drawn(), 0U) << "frame " << frame;
+        EXPECT_EQ(redrawn.draw(camera), first);
+        EXPECT_EQ(redrawn.drawn(), all) << "frame " << frame;
+    }
+
+    // A caster moves: its tiles are drawn, once.
+    move_object(scene, 2, glm::translate(mat4(1), vec3(0.3F, 0, -0.4F)));
+    refresh_scene(device(), gpu);
+    const std::vector<float> moved = kept.draw(camera);
+    EXPECT_GT(kept.drawn(), 0U);
+    EXPECT_LT(kept.drawn(), all / 2) << "of " << all;
+    EXPECT_NE(moved, first);
+    EXPECT_EQ(redrawn.draw(camera), moved);
+    EXPECT_EQ(kept.draw(camera), moved);
+    EXPECT_EQ(kept.drawn(), 0U);
+    EXPECT_EQ(redrawn.draw(camera), moved);
+
+    // A camera that moves, and casters with it.
+    std::uint32_t drawn = 0, drawn_anew = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+        camera.position_ws += vec3(0.25F, -0.1F, 0);
+        if (frame % 3 == 2) {
+            move_object(scene, 2, glm::translate(mat4(1), vec3(-0.1F, 0, 0.2F)));
+            refresh_scene(device(), gpu);
+        }
+        EXPECT_EQ(kept.draw(camera), redrawn.draw(camera)) << "frame " << frame;
+        drawn += frame > 0 ? kept.drawn() : 0;
+        drawn_anew += frame > 0 ? redrawn.drawn() : 0;
+    }
+    EXPECT_LT(drawn, drawn_anew / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(AdaptiveRendered, TilesKept, testing::Values("asm", "tiled", "rmsm"));
 
 }  // namespace
 }  // namespace gn

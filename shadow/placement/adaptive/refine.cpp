@@ -79,7 +79,7 @@ void add_look(const FrameInput& input, const Recipe& recipe, const LightViews& v
 }  // namespace
 
 BufferHandle add_refinement(const FrameInput& input, const Recipe& recipe, const GnTreeConstants& constants, int rounds,
-                            bool edges, const std::function<LightViews(const TreeTiles&)>& views_of) {
+                            bool edges, const TilesOf& tiles_of) {
     FrameGraph& graph = input.graph;
     const BufferHandle changed =
         graph.create({.name = "adaptive changes", .bytes = static_cast<VkDeviceSize>(constants.nodes) * 4});
@@ -91,7 +91,7 @@ BufferHandle add_refinement(const FrameInput& input, const Recipe& recipe, const
     for (int round = 0; round < rounds; ++round) {
         GnTreeConstants t = constants;
         t.limit = constants.start + round;
-        const LightViews views = views_of(add_tree(input, t, changed));
+        const LightViews views = tiles_of(t, changed, round);
         const TextureHandle depth = graph.create({.name = "adaptive round",
                                                   .format = VK_FORMAT_D32_SFLOAT,
                                                   .width = views.resolution,

@@ -10,8 +10,9 @@
 namespace gn::adaptive {
 
 /// What rounds of drawing found, before the last: uint[GnTreeConstants::nodes], above GnTreeConstants::threshold where a tile is to
-/// be refined. `views_of` makes the views of a round's tiles, which name their placement.
+/// be refined. `tiles_of` makes a round's tiles of what is known before it, and their views, which name their placement.
+using TilesOf = std::function<LightViews(const GnTreeConstants&, BufferHandle changed, int round)>;
 BufferHandle add_refinement(const FrameInput& input, const Recipe& recipe, const GnTreeConstants& constants, int rounds,
-                            bool edges, const std::function<LightViews(const TreeTiles&)>& views_of);
+                            bool edges, const TilesOf& tiles_of);
 
 }  // namespace gn::adaptive

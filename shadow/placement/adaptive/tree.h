@@ -12,6 +12,7 @@
 #define GN_TREE_RANKS 512  // steps of an eighth of a doubling that demands are told apart by; 0 is no demand
 #define GN_TREE_BLOCK 256  // nodes that an invocation counts
 #define GN_TREE_LANES 256  // invocations that add blocks up
+#define GN_TREE_ROW 1024   // squares of the atlas in a row of what the next frame finds
 
 struct GnTreeConstants {
     GnLight light;
@@ -44,6 +45,8 @@ struct GnTreeCounts {
     int rank;       ///< the lowest that has tiles of its own
     uint wanted;    ///< tiles that all demands need
     uint used;      ///< tiles that there are
+    uint held;      ///< of which an earlier frame left so many
+    uint stale;     ///< and of these so many are drawn anew
 };
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles of every block of nodes, and samples whose texels are larger than a pixel.
+// Tiles of every block of nodes, where tiles are kept those that are not there yet, and samples whose texels are larger than a pixel.
 #include "shadow/placement/adaptive/tree_needed.glsl"
 layout(local_size_x = 64) in;
 
@@ -22,6 +22,9 @@ void main() {
     for (int index = block * GN_TREE_BLOCK; index < end; ++index) {
         if (weight[index] > 0.0) {
             bool there = has_tile(index);
+#ifdef GN_TREE_KEPT
+            there = there && pages[index] == 0u;
+#endif
             tiles += there ? 1u : 0u;
             coarser += own[index] > 0u && too_coarse(index) ? own[index] : 0u;
         }

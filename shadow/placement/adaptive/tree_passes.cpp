@@ -14,7 +14,9 @@ struct Tree {
     const GnTreeConstants& constants;
     BufferHandle own, weights, in_block;
     BufferHandle deepest;  ///< with a grid: the finest level that is asked for in a node
+    BufferHandle places;   ///< of kept tiles: as tree_places.glsl divides it
     TreeTiles made;
+    const KeptTiles* kept = nullptr;
 };
 
 struct Pass {
@@ -23,16 +25,16 @@ struct Pass {
     uvec2 groups{1};
     ShaderInputs inputs;
     bool reads_samples = false;
-    const char* defines = "";
+    std::string defines = "";
 };
 
 void add_pass(const Tree& tree, Pass pass) {
     ShaderInputs& inputs = pass.inputs;
     inputs.block("uniform", "Tree", "GnTreeConstants t;", std::as_bytes(std::span(&tree.constants, 1)));
     inputs.buffer("buffer", "Counts", "GnTreeCounts c;", tree.made.counts);
-    const auto shader = compute_once(tree.input.prepared, pass.name, hashed(inputs), [&] {
+    const auto shader = compute_once(tree.input.prepared, pass.name, hashed(inputs).text(pass.defines), [&] {
         return pass.defines + include_line("shadow/placement/adaptive/adaptive.glsl") +
-               include_line("shadow/placement/adaptive/tree.h") +
+               include_line("shadow/casters/tiles.glsl") + include_line("shadow/placement/adaptive/tree.h") +
                include_line(pass.reads_samples ? "shadow/view/view.glsl" : "") + inputs.text() +
                include_line(fmt::format("shadow/placement/adaptive/tree_{}.glsl", pass.file));
     });
@@ -101,50 +103,111 @@ void add_cut(const Tree& tree) {
     add_pass(tree, {"adaptive rank", "rank", uvec2(1), {}});
 }
 
+constexpr const char* places_text = "uint places[];";
+constexpr const char* pages_text = "uint pages[];";
+
+/// Which squares of the atlas hold what is asked for, and which are given away.
+void add_hold(const Tree& tree) {
+    const KeptTiles& kept = *tree.kept;
+    std::vector<vec4> boxes = kept.boxes_ws;
+    boxes.resize(std::max<std::size_t>(boxes.size(), 2));
+    ShaderInputs hold = node_inputs(tree);
+    hold.block("readonly buffer", "Boxes", "vec4 boxes[];", std::as_bytes(std::span(boxes)))
+        .buffer("buffer", "Places", places_text, tree.places)
+        .buffer("buffer", "Pages", pages_text, tree.made.pages);
+    if (kept.before.valid()) {
+        hold.texture("usampler2D", "before", kept.before);
+    }
+    hold.constant("int", "boxes", static_cast<int>(kept.boxes_ws.size() / 2))
+        .constant("int", "fresh", kept.fresh ? 1 : 0)
+        .constant("int", "redrawn", kept.redrawn ? 1 : 0);
+    add_pass(tree, {"adaptive hold", "hold", uvec2(groups_of(tree.constants.tiles, 64), 1), hold, false,
+                    kept.before.valid()
+                        ? "#define GN_BEFORE(i) texelFetch(before, ivec2((i) % GN_TREE_ROW, (i) / GN_TREE_ROW), 0).r\n"
+                        : "#define GN_BEFORE(i) 0u\n"});
+    ShaderInputs order;
+    order.buffer("buffer", "Places", places_text, tree.places);
+    add_pass(tree, {"adaptive order", "order", uvec2(1), order});
+}
+
+/// The views of all squares, and what the next frame finds.
+void add_description(const Tree& tree) {
+    ShaderInputs inputs;
+    inputs.buffer("readonly buffer", "Places", places_text, tree.places)
+        .buffer("writeonly buffer", "Views", "GnLightView views[];", tree.made.views)
+        .buffer("writeonly buffer", "Drawn", "GnLightView drawn[];", tree.made.drawn)
+        .image("r32ui", "writeonly", "uimage2D", "now", tree.kept->now);
+    add_pass(tree, {"adaptive views", "describe", uvec2(groups_of(tree.constants.tiles, 64), 1), inputs});
+}
+
 /// Tiles one after the other, in the order of their nodes.
 void add_tiles(const Tree& tree) {
+    const bool keeps = tree.kept != nullptr;
+    const char* const defines = keeps ? "#define GN_TREE_KEPT\n" : "";
     const uvec2 blocks(groups_of(tree.constants.blocks, 64), 1);
     ShaderInputs counts = node_inputs(tree);
     counts.buffer("writeonly buffer", "InBlock", "uint in_block[];", tree.in_block);
-    add_pass(tree, {"adaptive counts", "counts", blocks, counts});
+    if (keeps) {
+        counts.buffer("readonly buffer", "Pages", pages_text, tree.made.pages);
+    }
+    add_pass(tree, {"adaptive counts", "counts", blocks, counts, false, defines});
     ShaderInputs sums;
     sums.buffer("buffer", "InBlock", "uint in_block[];", tree.in_block)
         .buffer("writeonly buffer", "Count", "uint count;", tree.made.count);
     add_pass(tree, {"adaptive sums", "sums", uvec2(1), sums});
     ShaderInputs tiles = node_inputs(tree);
     tiles.buffer("readonly buffer", "InBlock", "uint in_block[];", tree.in_block)
-        .buffer("writeonly buffer", "Pages", "uint pages[];", tree.made.pages)
-        .buffer("writeonly buffer", "Views", "GnLightView views[];", tree.made.views);
-    add_pass(tree, {"adaptive tiles", "tiles", blocks, tiles});
+        .buffer(keeps ? "buffer" : "writeonly buffer", "Pages", pages_text, tree.made.pages);
+    if (keeps) {
+        tiles.buffer("buffer", "Places", places_text, tree.places);
+    } else {
+        tiles.buffer("writeonly buffer", "Views", "GnLightView views[];", tree.made.views);
+    }
+    add_pass(tree, {"adaptive tiles", "tiles", blocks, tiles, false, defines});
 }
 
 }  // namespace
 
-TreeTiles add_tree(const FrameInput& input, const GnTreeConstants& constants, BufferHandle changed) {
+TreeTiles add_tree(const FrameInput& input, const GnTreeConstants& constants, BufferHandle changed,
+                   const KeptTiles* kept) {
     FrameGraph& graph = input.graph;
     const auto words = [&](const char* name, int count) {
         return graph.create({.name = name, .bytes = static_cast<VkDeviceSize>(count) * 4});
     };
-    const Tree tree{
-        .input = input,
-        .constants = constants,
-        .own = words("adaptive requests", constants.nodes),
-        .weights = words("adaptive weights", constants.nodes),
-        .in_block = words("adaptive blocks", constants.blocks),
-        .deepest = constants.grid >= 0 ? words("adaptive levels", constants.nodes) : BufferHandle{},
-        .made = {.views = graph.create({.name = "adaptive views",
-                                        .bytes = static_cast<VkDeviceSize>(constants.tiles) * sizeof(GnLightView)}),
-                 .count = words("adaptive count", 1),
-                 .pages = words("adaptive pages", constants.nodes),
-                 .counts = graph.create({.name = "adaptive counts", .bytes = sizeof(GnTreeCounts)})}};
-    add_zeros(graph, "adaptive clear", {tree.own, tree.made.counts});
+    const auto views = [&](const char* name) {
+        return graph.create({.name = name, .bytes = static_cast<VkDeviceSize>(constants.tiles) * sizeof(GnLightView)});
+    };
+    const Tree tree{.input = input,
+                    .constants = constants,
+                    .own = words("adaptive requests", constants.nodes),
+                    .weights = words("adaptive weights", constants.nodes),
+                    .in_block = words("adaptive blocks", constants.blocks),
+                    .deepest = constants.grid >= 0 ? words("adaptive levels", constants.nodes) : BufferHandle{},
+                    .places = kept != nullptr ? words("adaptive places", 4 * constants.tiles) : BufferHandle{},
+                    .made = {.views = views("adaptive views"),
+                             .count = words("adaptive count", 1),
+                             .drawn = kept != nullptr ? views("adaptive drawn") : BufferHandle{},
+                             .pages = words("adaptive pages", constants.nodes),
+                             .counts = graph.create({.name = "adaptive counts", .bytes = sizeof(GnTreeCounts)})},
+                    .kept = kept};
+    std::vector<BufferHandle> cleared{tree.own, tree.made.counts};
+    if (kept != nullptr) {
+        cleared.push_back(tree.made.pages);
+    }
+    add_zeros(graph, "adaptive clear", cleared);
     add_requests(tree, changed);
     add_weights(tree);
     if (tree.deepest.valid()) {
         add_grid(tree);
     }
     add_cut(tree);
+    if (kept != nullptr) {
+        add_hold(tree);
+    }
     add_tiles(tree);
+    if (kept != nullptr) {
+        add_description(tree);
+    }
     return tree.made;
 }
 

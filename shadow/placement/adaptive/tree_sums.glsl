@@ -24,7 +24,7 @@ void main() {
         before += tiles;
     }
     if (lane == GN_TREE_LANES - 1) {
-        count = before;
-        c.used = before;
+        count = c.stale + before;
+        c.used = c.held + before;
     }
 }

@@ -1,31 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The page of every node, and the view that draws it: the node's part of its map with a border all around, in the next square of
-// the atlas.
+// The page of every node, and the view that draws it in the next square of the atlas. Where tiles are kept, of those alone that no
+// square holds yet, in the squares that are given away.
 #include "shadow/placement/adaptive/tree_needed.glsl"
+#ifdef GN_TREE_KEPT
+#include "shadow/placement/adaptive/tree_places.glsl"
+#else
+#include "shadow/placement/adaptive/tree_view.glsl"
+#endif
 layout(local_size_x = 64) in;
 
-GnLightView view_of(Node node, int tile) {
-    GnLightView view = t.maps[node.map];
-    float part = exp2(-float(node.level));
-    vec2 middle = (2.0 * vec2(node.cell) + 1.0) * part - 1.0;
-    float scale = t.data.texels / (part * float(t.tile));
-
-    // x' = (x - middle w) scale, and back.
-    for (int i = 0; i < 4; ++i) {
-        vec4 column = t.maps[node.map].cs_from_ws[i];
-        view.cs_from_ws[i] = vec4((column.xy - middle * column.w) * scale, column.zw);
-    }
-    view.ws_from_cs[0] = t.maps[node.map].ws_from_cs[0] / scale;
-    view.ws_from_cs[1] = t.maps[node.map].ws_from_cs[1] / scale;
-    view.ws_from_cs[3] = t.maps[node.map].ws_from_cs[3] + t.maps[node.map].ws_from_cs[0] * middle.x +
-                         t.maps[node.map].ws_from_cs[1] * middle.y;
-
-    int of_layer = t.across * t.across;
-    ivec2 square = ivec2(tile % of_layer % t.across, tile % of_layer / t.across);
-    view.rect_ts = vec4(vec2(square * t.tile), vec2(t.tile)) / float(t.resolution);
-    view.resolution = float(t.resolution);
-    view.layer = tile / of_layer;
-    return view;
+// The page of a node that has a tile and, where tiles are kept, none yet; `tile`: of how many such nodes it is the last.
+uint place_tile(int index, uint tile) {
+#ifdef GN_TREE_KEPT
+    uint place = GN_VICTIM(tile);
+    GN_HOLDS(place) = uint(index) + 1u;
+    GN_STATE(place) = GN_TREE_HELD;
+    GN_DRAW(place) = c.stale + tile + 1u;
+    return place + 1u;
+#else
+    views[tile] = view_of(node_of(index), int(tile));
+    return tile + 1u;
+#endif
 }
 
 void main() {
@@ -37,10 +32,12 @@ void main() {
     uint tile = in_block[block];
     for (int index = block * GN_TREE_BLOCK; index < end; ++index) {
         bool there = weight[index] > 0.0 && has_tile(index);
-        pages[index] = there ? tile + 1u : 0u;
-        if (there) {
-            views[tile] = view_of(node_of(index), int(tile));
-            tile += 1u;
+#ifdef GN_TREE_KEPT
+        if (!there || pages[index] != 0u) {
+            continue;
         }
+#endif
+        pages[index] = there ? place_tile(index, tile) : 0u;
+        tile += there ? 1u : 0u;
     }
 }

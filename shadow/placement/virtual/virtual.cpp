@@ -18,6 +18,7 @@
 #include "shadow/recipe/guard.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -129,6 +130,9 @@ LightViews place_virtual(const FrameInput& input, const Recipe& recipe) {
     return views;
 }
 
+/// Lookups that ask for the nearest of a region by gn_pcss_region alone, which knows of maps in parts.
+constexpr std::array<std::string_view, 2> whole_askers{"pcss", "smrt"};
+
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
     if (recipe.resolution < 4 * least_page) {
         return fmt::format("placement 'virtual' needs a pool of at least {} texels a side; resolution = {}",
@@ -145,12 +149,14 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
             "front or back",
             name_of(recipe.casters));
     }
+    const bool asks_whole = recipe.lookup != nullptr && std::find(whole_askers.begin(), whole_askers.end(),
+                                                                  recipe.lookup->id) != whole_askers.end();
     for (const std::string_view need : recipe.lookup != nullptr ? needs_of(recipe) : std::vector<std::string_view>()) {
-        if (need != "depth") {
+        if (need != "depth" && !asks_whole) {
             return fmt::format(
                 "lookup '{}' reads '{}' of one whole view, and placement 'virtual' spreads it over pages; 'hard' and "
-                "'pcf' read depths alone",
-                recipe.lookup->id, need);
+                "'pcf' read depths alone, '{}' ask the page that shows all",
+                recipe.lookup->id, need, fmt::join(whole_askers, "' and '"));
         }
     }
     return {};

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// What every square of the atlas holds: 1 + a node, 0 nothing; whether this frame asks for it; 1 + where in the frame's list of
+// tiles to be drawn it is, 0 where it is not drawn; and the squares that are given away, in their order.
+
+#define GN_HOLDS(place) places[place]
+#define GN_STATE(place) places[t.tiles + int(place)]
+#define GN_DRAW(place) places[2 * t.tiles + int(place)]
+#define GN_VICTIM(i) places[3 * t.tiles + int(i)]
+
+// Asked for as it is; asked for, and drawn anew; else nothing asks.
+const uint GN_TREE_HELD = 1u;
+const uint GN_TREE_STALE = 2u;
