@@ -218,6 +218,7 @@ TEST(GltfAnimation, WhatWouldLeaveTheNumbersStays) {
     ASSERT_EQ(remarks.size(), 1U);
     EXPECT_NE(remarks[0].find("beyond 1e9 m"), std::string::npos);
     EXPECT_EQ(loaded.scene.positions_ws, before);
+    EXPECT_EQ(loaded.scene.objects[0].now_from_first, dmat4(1));
     EXPECT_THROW(find_animation(loaded.rig, "walk"), Error);
     EXPECT_EQ(find_animation(loaded.rig, "animation 1"), 0U);
 }
