@@ -114,31 +114,44 @@ void place_object(Scene& scene, Object& object, const dmat4& now_from_first) {
 
 /// The move between two places in the scene's coordinates, which are relative to its origin; none where the first was flat.
 dmat4 move_between(const dmat4& now, const dmat4& first, dvec3 origin) {
-    const double volume = glm::determinant(first);
-    if (!std::isfinite(volume) || volume == 0) {
-        return dmat4(1);
-    }
-    return glm::translate(dmat4(1), -origin) * now * glm::inverse(first) * glm::translate(dmat4(1), origin);
+    const dmat4 moved =
+        glm::translate(dmat4(1), -origin) * now * glm::inverse(first) * glm::translate(dmat4(1), origin);
+    return within(dvec3(moved[0])) && within(dvec3(moved[1])) && within(dvec3(moved[2])) && within(dvec3(moved[3]))
+               ? moved
+               : dmat4(1);
 }
 
-void place_lights(Scene& scene, const Rig& rig) {
+/// How many would leave the numbers, and stay where they were.
+std::size_t place_lights(Scene& scene, const Rig& rig) {
+    std::size_t lost = 0;
     for (const CarriedLight& carried : rig.lights) {
         const dmat4 moved = move_between(rig.now[carried.node], rig.rest[carried.node], scene.origin);
         PlacedLight placed{carried.rest, dvec3(carried.rest.shape.position_ws)};
         move_light(placed, moved);
+        if (!within(placed.position_ws) || !within(dvec3(rig.now[carried.node][3]) - scene.origin)) {
+            ++lost;
+            continue;
+        }
         placed.light.shape.position_ws = vec4(vec3(placed.position_ws), carried.rest.shape.position_ws.w);
         scene.lights[carried.light].shape = moved == dmat4(1) ? carried.rest.shape : placed.light.shape;
     }
+    return lost;
 }
 
-void place_cameras(Scene& scene, const Rig& rig) {
+std::size_t place_cameras(Scene& scene, const Rig& rig) {
+    std::size_t lost = 0;
     for (const CarriedCamera& carried : rig.cameras) {
         const dmat4 moved = move_between(rig.now[carried.node], rig.rest[carried.node], scene.origin);
         PlacedCamera placed{carried.rest, dvec3(carried.rest.position_ws)};
         move_camera(placed, moved);
+        if (!within(placed.position_ws) || !within(dvec3(rig.now[carried.node][3]) - scene.origin)) {
+            ++lost;
+            continue;
+        }
         placed.camera.position_ws = vec3(placed.position_ws);
         scene.cameras[carried.camera] = moved == dmat4(1) ? carried.rest : placed.camera;
     }
+    return lost;
 }
 
 }  // namespace
@@ -237,10 +250,9 @@ std::vector<std::string> pose_scene(Scene& scene, Rig& rig, std::optional<std::s
         }
         scene.bounds_ws.grow(scene.objects[i].bounds_ws);
     }
-    place_lights(scene, rig);
-    place_cameras(scene, rig);
-    note_count(remarks, lost, "1 mesh would move beyond 1e9 m at this time; it stays where it was.",
-               "{} meshes would move beyond 1e9 m at this time; they stay where they were.");
+    lost += place_lights(scene, rig) + place_cameras(scene, rig);
+    note_count(remarks, lost, "1 mesh, lamp or camera would move beyond 1e9 m at this time; it stays where it was.",
+               "{} meshes, lamps or cameras would move beyond 1e9 m at this time; they stay where they were.");
     return remarks;
 }
 

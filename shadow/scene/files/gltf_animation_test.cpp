@@ -66,14 +66,14 @@ TEST(GltfAnimation, ANodeTurnsAQuarter) {
 
 TEST(GltfAnimation, NormalsAndChildrenTurnAlong) {
     GltfText gltf = turning();
-    const int normals = gltf.add(std::vector<float>{1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3", 5126, 3);
+    const int normals = gltf.add(std::vector<float>{s, s, 0, s, s, 0, s, s, 0}, "VEC3", 5126, 3);
     gltf.primitives = fmt::format(R"({{"attributes":{{"POSITION":0,"NORMAL":{}}}}})", normals);
-    // Flattened to a quarter along x, its normal still points along x; the turn brings that to y.
+    // Flattened to a quarter along x, its oblique normal leans to x, (1, 1/4); the turn brings that to (-1/4, 1).
     gltf.nodes = R"({"translation":[10,0,0],"children":[1]},{"mesh":0,"translation":[1,0,0],"scale":[0.25,1,1]})";
     AnimatedScene loaded = load(gltf.text());
     pose_scene(loaded.scene, loaded.rig, 0, 1);
     expect_at(corner(loaded.scene, 0, 1) + vec3(loaded.scene.origin), {10, 1.25F, 0});
-    expect_at(loaded.scene.normals_ws[loaded.scene.triangles[0].y], {0, 1, 0});
+    expect_at(loaded.scene.normals_ws[loaded.scene.triangles[0].y], glm::normalize(vec3(-0.25F, 1, 0)));
 }
 
 TEST(GltfAnimation, LampsAndCamerasMoveWithTheirNode) {
@@ -218,6 +218,7 @@ TEST(GltfAnimation, WhatWouldLeaveTheNumbersStays) {
     ASSERT_EQ(remarks.size(), 1U);
     EXPECT_NE(remarks[0].find("beyond 1e9 m"), std::string::npos);
     EXPECT_EQ(loaded.scene.positions_ws, before);
+    EXPECT_EQ(loaded.scene.objects[0].now_from_first, dmat4(1));
     EXPECT_THROW(find_animation(loaded.rig, "walk"), Error);
     EXPECT_EQ(find_animation(loaded.rig, "animation 1"), 0U);
 }
