@@ -21,26 +21,48 @@ namespace {
 // The neighbours along the light's other axis, and what they have read: take(texel, weight).
 constexpr const char* columns_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
+// Where the row through point y of the kernel is in the picture, in pixels; z = 0 where it is not seen.
+vec3 row_ss(vec3 p_ws, vec3 n_ws, vec3 up_ws, float spread, float y) {
+    vec4 beside = gn_sssm_neighbour(u.light, p_ws, n_ws, spread * y * up_ws);
+    vec3 seen = gn_reproject(u.view.cs_from_ws, mat4(1.0), beside.xyz);
+    return vec3(seen.xy * vec2(u.view.size.xy), beside.w == 0.0 ? 0.0 : seen.z);
+}
+// Whether rows lie closer than pixels do.
+bool rows_close(vec3 p_ws, vec3 n_ws, float spread) {
+    vec3 up_ws = gn_pcss_light(u.light, p_ws).up_ws;
+    vec3 low = row_ss(p_ws, n_ws, up_ws, spread, -1.0);
+    vec3 high = row_ss(p_ws, n_ws, up_ws, spread, 1.0);
+    return low.z != 0.0 && high.z != 0.0 && distance(low.xy, high.xy) < float(u.params.side);
+}
 void columns(ivec2 pixel, vec3 p_ws, vec4 normal, float spread, inout GnSssmColumn sum) {
     GnPcssLight half_light = gn_pcss_light(u.light, p_ws);
     ivec2 size = ivec2(u.view.size.xy);
     float pixel_ws = gn_pixel_growth(u.view, normal.w) * length(u.view.right_ws.xyz);
     for (int j = 0; j < u.params.side; ++j) {
         float y = gn_sssm_point(j, u.params.side, 0.5, 0);
-        vec4 beside = gn_sssm_neighbour(u.light, p_ws, normal.xyz, spread * y * half_light.up_ws);
-        vec3 seen = gn_reproject(u.view.cs_from_ws, mat4(1.0), beside.xyz);
-        ivec2 other = ivec2(floor(seen.xy * vec2(size)));
-        if (beside.w == 0.0 || seen.z == 0.0 || any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) {
+        vec3 seen = row_ss(p_ws, normal.xyz, half_light.up_ws, spread, y);
+        if (seen.z == 0.0) {
             continue;
         }
-        vec4 q = gbuffer_position_texel(other);
-        vec3 q_n = gbuffer_normal_texel(other).xyz;
-        // A neighbour is of use where it lies on the receiver's plane.
-        if (q.w < 0.5 || !gn_counted(u.whole, q.xyz, q_n) || dot(normal.xyz, q_n) < 0.9 ||
-            abs(dot(normal.xyz, q.xyz - p_ws)) > u.params.plane * pixel_ws) {
-            continue;
+        // Mix the four pixels around that place, or what they hand on would change by whole pixels as the camera moves.
+        vec2 place = seen.xy - 0.5;
+        ivec2 low = ivec2(floor(place));
+        vec2 share = place - vec2(low);
+        for (int k = 0; k < 4; ++k) {
+            ivec2 other = low + ivec2(k & 1, k >> 1);
+            float mixed = (other.x > low.x ? share.x : 1.0 - share.x) * (other.y > low.y ? share.y : 1.0 - share.y);
+            if (mixed < 1.0e-3 || any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) {
+                continue;
+            }
+            vec4 q = gbuffer_position_texel(other);
+            vec3 q_n = gbuffer_normal_texel(other).xyz;
+            // A neighbour is of use where it lies on the receiver's plane.
+            if (q.w < 0.5 || !gn_counted(u.whole, q.xyz, q_n) || dot(normal.xyz, q_n) < 0.9 ||
+                abs(dot(normal.xyz, q.xyz - p_ws)) > u.params.plane * pixel_ws) {
+                continue;
+            }
+            gn_sssm_take(sum, other, spread, mixed * gn_sssm_weight(half_light.square, y));
         }
-        gn_sssm_take(sum, other, spread, gn_sssm_weight(half_light.square, y));
     }
 }
 )";
@@ -79,6 +101,9 @@ void main() {
         hides = sum.hidden > 0.0;
         before = hides ? sum.before / sum.hidden : 0.0;
         spread = own.z >= 1.0 ? gn_sssm_all() : hides ? gn_sssm_spread(u.light, position.xyz, before) : -1.0;
+        if (hides && own.z < 1.0) {
+            spread = gn_sssm_marked(spread, rows_close(position.xyz, normal.xyz, spread));
+        }
     }
     imageStore(result, pixel, vec4(min(spread, gn_sssm_all())));
     GN_SSSM_TELL
@@ -134,7 +159,8 @@ void main() {
     vec4 normal = gbuffer_normal_texel(pixel);
     float v = texelFetch(rows, pixel, 0).r;
     float spread = texelFetch(spreads, pixel, 0).r;
-    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && spread > 0.0 && spread < gn_sssm_all()) {
+    if (position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz) && spread > 0.0 && spread < gn_sssm_all() &&
+        !gn_sssm_close(spread)) {
         GnSssmColumn sum = GnSssmColumn(0.0, 0.0);
         columns(pixel, position.xyz, normal, spread, sum);
         v = sum.weight > 0.0 ? sum.lit / sum.weight : v;

@@ -90,7 +90,7 @@ void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float r
 // The row y of the kernel that the light's points make through a plane at `spread`. A row that stands for the grid is as broad as
 // `least` makes the kernel beyond the light's points, which the rows of neighbours have.
 void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread, float y,
-                 GnSssmParams params, inout GnSssmSum sum) {
+                 bool alone, GnSssmParams params, inout GnSssmSum sum) {
     GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
     GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, params.least * at.projected.texel_ts);
     float noise = gn_gradient_noise(at.receiver.p_ss);
@@ -98,12 +98,29 @@ void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPc
     for (int i = 0; i < params.side; ++i) {
         float x = gn_sssm_point(i, params.side, noise, params.jitter);
         vec2 tap_ts = gn_pcss_tap_ts(at, kernel, widen, vec2(x, y));
-#ifndef GN_SSSM_GRID
-        tap_ts += gn_sssm_across(i, noise, params.jitter) * gn_sssm_weight(half_light.square, x) * widen.up_ts;
-#endif
+        if (alone) {
+            tap_ts += gn_sssm_across(i, noise, params.jitter) * gn_sssm_weight(half_light.square, x) * widen.up_ts;
+        }
         gn_sssm_add(at, depth, metres, receiver, tap_ts, weight * gn_sssm_weight(half_light.square, x), sum);
     }
 }
+
+// All rows of a kernel.
+GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread,
+                       GnSssmParams params) {
+    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
+    for (int j = 0; j < params.side; ++j) {
+        gn_sssm_row(at, depth, half_light, metres, receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), false, params, sum);
+    }
+    return sum;
+}
+
+// The lowest bit of a spread tells that the rows of its kernel lie closer than pixels do, so that no neighbour has others than the
+// receiver.
+float gn_sssm_marked(float spread, bool close) {
+    return uintBitsToFloat((floatBitsToUint(spread) & ~1u) | (close ? 1u : 0u));
+}
+bool gn_sssm_close(float spread) { return (floatBitsToUint(spread) & 1u) != 0u; }
 
 #ifdef GN_SSSM_SEARCH
 // The row through the receiver of the region where anything can hide the light: how much of it does, how many metres before the
@@ -117,20 +134,25 @@ vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyrami
         return region.visibility > 0.0 ? vec3(0.0) : vec3(1.0, before, 1.0);
     }
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    gn_sssm_row(at, depth, half_light, metres, region.receiver, region.spread, 0.0, params, sum);
+    gn_sssm_row(at, depth, half_light, metres, region.receiver, region.spread, 0.0, true, params, sum);
     return vec3(sum.hidden / sum.weight, gn_sssm_pack(sum.before / max(sum.hidden, 1.0e-6)), gn_sssm_pack(region.spread));
 }
 #elif defined(GN_SSSM_FILTER)
-// The row through the receiver of a kernel as wide as the penumbra. `spreads`: the picture's, below 0 where nothing hides the
-// light, gn_sssm_all() where all of it is hidden.
+// The row through the receiver of a kernel as wide as the penumbra, or all of it where rows lie closer than pixels. `spreads`: the
+// picture's, below 0 where nothing hides the light, gn_sssm_all() where all of it is hidden.
 float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray spreads, GnSssmParams params) {
     float spread = texelFetch(spreads, ivec3(ivec2(at.receiver.p_ss), 0), 0).r;
     if (spread < 0.0 || spread >= gn_sssm_all()) {
         return spread < 0.0 ? 1.0 : 0.0;
     }
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnPcssMetres metres = gn_pcss_metres_of(at);
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    gn_sssm_row(at, depth, half_light, gn_pcss_metres_of(at), 1.0, spread, 0.0, params, sum);
+    if (gn_sssm_close(spread)) {
+        sum = gn_sssm_grid(at, depth, half_light, metres, 1.0, spread, params);
+    } else {
+        gn_sssm_row(at, depth, half_light, metres, 1.0, spread, 0.0, true, params, sum);
+    }
     return 1.0 - sum.hidden / sum.weight;
 }
 #elif defined(GN_SSSM_GRID)
@@ -138,15 +160,6 @@ struct GnSssmFound {
     float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
     float before;      // metres along the axis from what hides the light to the receiver, on average
 };
-
-GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread,
-                       GnSssmParams params) {
-    GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
-    for (int j = 0; j < params.side; ++j) {
-        gn_sssm_row(at, depth, half_light, metres, receiver, spread, gn_sssm_point(j, params.side, 0.5, 0), params, sum);
-    }
-    return sum;
-}
 
 GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light, GnSssmParams params) {
     GnPcssMetres metres = gn_pcss_metres_of(at);

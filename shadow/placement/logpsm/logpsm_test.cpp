@@ -5,6 +5,7 @@
 #include "shadow/receiver/logarithm.glsl"
 #include "shadow/receiver/map_access.glsl"
 #include "shadow/receiver/receiver.glsl"
+#include "tests/direct_scenes.h"
 #include "tests/warp_scene.h"
 
 #include <random>
@@ -352,6 +353,27 @@ TEST(LogpsmRendered, FacesOfCastersAreThoseOfAFittedMap) {
         const auto rows = test::compare("contact", fmt::format("hard,placement=logpsm,casters={}", casters), small);
         EXPECT_NEAR(*rows.errors.mismatch, *fit.errors.mismatch, 0.01) << casters;
     }
+}
+
+/// A board without a back side is drawn with the faces that the light sees first or with the others, never with both.
+TEST(LogpsmRendered, ABoardHasOneSide) {
+    GnLight sun = by_hand::sun({0.3F, -1, -0.2F});
+    const Scene scene = by_hand::SceneBuilder()
+                            .ground(4)
+                            .quad({-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1})
+                            .light(sun)
+                            .camera({0.5F, 3, 6}, {0, 0, 0})
+                            .scene();
+    const auto dark = [&](const char* placement, const char* casters) {
+        const auto c = test::compare(scene, fmt::format("hard,placement={},casters={}", placement, casters), small);
+        const std::vector<float>& v = c.visibility().values;
+        return static_cast<int>(std::count(v.begin(), v.end(), 0.0F));
+    };
+    const int front = dark("fit", "front"), back = dark("fit", "back");
+    ASSERT_GT(std::abs(front - back), 100);
+    // Half a texel along the board's edge.
+    EXPECT_NEAR(dark("logpsm", "front"), front, 60);
+    EXPECT_NEAR(dark("logpsm", "back"), back, 60);
 }
 
 /// A slab high above all that the camera sees is nearer to the light than the map's near plane.
