@@ -315,11 +315,18 @@ TEST(BackprojectionRendered, OverlapsAreRightByPointsAndWrongByAreasAsPredicted)
 
 /// What pyramids narrow and decide is what the loop over all texels finds, bit for bit.
 TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
-    for (const char* scene : {"slab", "contact:light=spot", "contact"}) {
+    // Where the receiver's plane is followed, what lies up a slope is before a receiver and hides nothing from it.
+    const char* const plane = "bias.receiver_plane=true";
+    for (const auto& [scene, bias] : {std::pair{"slab", "resolution=48"},
+                                      {"contact:light=spot", "resolution=48"},
+                                      {"contact", "resolution=48"},
+                                      {"contact:radius=0.5", plane},
+                                      {"contact:radius=2,elevation=20", plane}}) {
         const auto values = [&](const char* settings) {
             return test::compare(
                        scene,
-                       fmt::format("backprojection,resolution=48,backprojection.budget=0,backprojection.{}", settings),
+                       fmt::format("backprojection,resolution=48,{},backprojection.budget=0,backprojection.{}", bias,
+                                   settings),
                        {.width = 24, .height = 18, .samples = 1})
                 .visibility()
                 .values;
