@@ -320,7 +320,6 @@ TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
     for (const auto& [scene, bias] : {std::pair{"slab", "resolution=48"},
                                       {"contact:light=spot", "resolution=48"},
                                       {"contact", "resolution=48"},
-                                      {"contact:radius=0.5", plane},
                                       {"contact:radius=2,elevation=20", plane}}) {
         const auto values = [&](const char* settings) {
             return test::compare(
