@@ -280,9 +280,10 @@ float gn_pcss_seen(GnLookup at, GnLookup tap, GnPcssMetres metres, vec2 tap_ts, 
 // Where views are parts of one map, a region reaches beyond the receiver's; the view that shows all of the map then tells the
 // nearest in it, to its own texels, and nothing ends the search early:
 //   #define GN_WHOLE_CHOICE(receiver) 0
+//   with #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
 //   with #define GN_LIGHT_VIEW(i) at.view
 #if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
-#define GN_PCSS_WHOLE
 GnLookup gn_pcss_whole(GnLookup at) {
     GnLightView view = GN_LIGHT_VIEW(GN_WHOLE_CHOICE(at.receiver));
     return GnLookup(at.receiver, gn_project(at.receiver, view, at.bias), at.bias, at.light, view);
@@ -312,7 +313,7 @@ GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight hal
     region.receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     vec2 least_ts = vec2(least * at.projected.texel_ts);
     vec2 found = gn_pcss_extremes(at, pyramid, at.projected.bounds_ts.zw - at.projected.bounds_ts.xy);
-#ifdef GN_PCSS_WHOLE
+#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
     GnLookup whole = gn_pcss_whole(at);
     vec2 all_ts = whole.projected.bounds_ts.zw - whole.projected.bounds_ts.xy;
     found = vec2(min(found.x, gn_pcss_extremes(whole, pyramid, all_ts).x), -1.0);
@@ -322,7 +323,7 @@ GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight hal
         region.spread = gn_pcss_spread_at(at, region.receiver, region.nearest);
         vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
         found = gn_pcss_extremes(at, pyramid, reach_ts + least_ts);
-#ifdef GN_PCSS_WHOLE
+#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
         found = gn_pcss_with_whole(found, whole, pyramid, half_light, region.spread);
 #endif
         if (found.y >= 0.0 && early_out) {
