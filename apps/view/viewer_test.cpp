@@ -386,11 +386,14 @@ class DisplayServer {
             _exit(127);
         }
         close(ends[1]);
-        std::array<char, 16> text{};
-        const ssize_t count = read(ends[0], text.data(), text.size() - 1);
+        // To the end of what it writes: a server whose number is read and whose line's end is not dies of the closed pipe.
+        std::string text;
+        for (char c = 0; read(ends[0], &c, 1) == 1;) {
+            text += c;
+        }
         close(ends[0]);
-        if (count > 0) {
-            await(std::atoi(text.data()));
+        if (!text.empty()) {
+            await(std::atoi(text.c_str()));
         }
     }
     ~DisplayServer() {
