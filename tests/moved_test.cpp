@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A caster that moves takes its shadow along: in maps that are kept over frames, in volumes and in the truth alike.
-#include "shadow/frame/history.h"
 #include "shadow/placement/place.h"
 #include "shadow/scene/move.h"
 #include "tests/direct_scenes.h"
-#include "tests/rig.h"
+#include "tests/moving.h"
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -14,20 +13,6 @@
 namespace gn {
 namespace {
 
-constexpr uint width = 96, height = 64;
-
-FrameResult draw(SceneGpu& gpu, const Recipe& recipe, History* history) {
-    return render_frame(test::device(), gpu, gpu.scene->cameras.front(), recipe,
-                        {.width = width, .height = height, .picture = false, .history = history});
-}
-
-double error_against_truth(const Scene& scene, const FrameResult& frame) {
-    const TruthResult truth =
-        Truth(scene).trace(frame.samples.position_ws, frame.samples.normal_ws, scene.lights.front(), {.samples = 1});
-    return visibility_errors(frame.visibility.front().values, truth.visibility, truth.counted, width, height)
-        .rmse.value();
-}
-
 class Moved : public testing::TestWithParam<const char*> {};
 
 TEST_P(Moved, CastersTakeTheirShadowAlong) {
@@ -36,24 +21,24 @@ TEST_P(Moved, CastersTakeTheirShadowAlong) {
     Scene scene = by_hand::box_on_ground();
     SceneGpu gpu = upload_scene(test::device(), scene);
     History history(test::device());
-    const FrameResult still = draw(gpu, recipe, &history);
-    EXPECT_EQ(draw(gpu, recipe, &history).visibility.front().values, still.visibility.front().values);
+    const FrameResult still = test::draw_moving(gpu, recipe, &history);
+    EXPECT_EQ(test::draw_moving(gpu, recipe, &history).visibility.front().values, still.visibility.front().values);
 
     // What was kept knows of the move: the frame is that of a scene that always stood so.
     const mat4 turn = glm::rotate(mat4(1), 0.3F, vec3(0, 1, 0));
     move_object(scene, 1, glm::translate(mat4(1), vec3(2.5F, 0.25F, -1)) * turn);
     refresh_scene(test::device(), gpu);
-    const FrameResult moved = draw(gpu, recipe, &history);
+    const FrameResult moved = test::draw_moving(gpu, recipe, &history);
     SceneGpu anew = upload_scene(test::device(), scene);
     History empty(test::device());
-    EXPECT_EQ(moved.visibility.front().values, draw(anew, recipe, &empty).visibility.front().values);
-    EXPECT_EQ(moved.samples.position_ws, draw(anew, recipe, nullptr).samples.position_ws);
+    EXPECT_EQ(moved.visibility.front().values, test::draw_moving(anew, recipe, &empty).visibility.front().values);
+    EXPECT_EQ(moved.samples.position_ws, test::draw_moving(anew, recipe, nullptr).samples.position_ws);
 
     // And the truth moved likewise: against it the old shadow would be far off.
-    const double error = error_against_truth(scene, moved);
+    const double error = test::error_against_truth(scene, moved);
     FrameResult left_behind = moved;
     left_behind.visibility = still.visibility;
-    EXPECT_LT(3 * error, error_against_truth(scene, left_behind)) << error;
+    EXPECT_LT(3 * error, test::error_against_truth(scene, left_behind)) << error;
 }
 
 /// A large ground, and on it two boxes of which one moves by `step`.
@@ -76,14 +61,15 @@ TEST(MovedMaps, AreDrawnAnewOnlyWhereSomethingMoved) {
     Scene scene = two_boxes();
     SceneGpu gpu = upload_scene(test::device(), scene);
     History history(test::device());
-    draw(gpu, recipe, &history);
+    test::draw_moving(gpu, recipe, &history);
     move_object(scene, 2, glm::translate(mat4(1), vec3(0.5F, 0, -1)));
     refresh_scene(test::device(), gpu);
 
     // Where the box was and where it is are two small places of each map.
     FrameGraph graph(test::device());
     const SceneHandles handles = import_scene(graph, gpu);
-    const ViewSamples samples = add_view_samples(graph, gpu, handles, scene.cameras.front(), width, height);
+    const ViewSamples samples =
+        add_view_samples(graph, gpu, handles, scene.cameras.front(), test::moving_width, test::moving_height);
     const FrameInput input{test::device(), graph, scene, handles, samples, scene.lights.data(), 0, &history};
     const LightViews views = place_views(input, recipe);
     ASSERT_TRUE(views.kept.has_value());
@@ -105,15 +91,15 @@ TEST(MovedMaps, AreThoseOfASceneThatAlwaysStoodSo) {
     Scene scene = two_boxes();
     SceneGpu gpu = upload_scene(test::device(), scene);
     History history(test::device());
-    std::vector<float> before = draw(gpu, recipe, &history).visibility.front().values;
+    std::vector<float> before = test::draw_moving(gpu, recipe, &history).visibility.front().values;
     for (const vec3 step : {vec3(0.5F, 0, -1), vec3(-4, 0.3F, 0), vec3(0, -0.3F, 2)}) {
         // Twice before it is told: from where it was drawn last to where it ends.
         move_object(scene, 2, glm::translate(mat4(1), 2.0F * step));
         move_object(scene, 2, glm::translate(mat4(1), -step));
         refresh_scene(test::device(), gpu);
-        const std::vector<float> moved = draw(gpu, recipe, &history).visibility.front().values;
+        const std::vector<float> moved = test::draw_moving(gpu, recipe, &history).visibility.front().values;
         SceneGpu anew = upload_scene(test::device(), scene);
-        EXPECT_EQ(moved, draw(anew, recipe, nullptr).visibility.front().values);
+        EXPECT_EQ(moved, test::draw_moving(anew, recipe, nullptr).visibility.front().values);
         EXPECT_NE(moved, before);
         before = moved;
     }

@@ -5,6 +5,7 @@
 #include "gpu/shader_inputs.h"
 #include "shadow/map/sums.h"
 #include "shadow/receiver/map_range.glsl"
+#include "shadow/receiver/sample_pass.h"
 #include "tests/rig.h"
 
 #include <algorithm>
@@ -255,6 +256,37 @@ void main() {
     }
 }
 
+/// What GLSL answers for each rectangle of texels, {first, last}: `body` sets answers[i] of `rectangle`, by functions of `file`.
+template <typename Answer>
+std::vector<Answer> answers_of(FrameGraph& graph, ShaderInputs inputs, const std::vector<ivec4>& asked,
+                               const char* file, const char* body) {
+    const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = asked.size() * sizeof(Answer)});
+    graph.keep(answers);
+    inputs.block("readonly buffer", "Asked", "ivec4 asked[];", std::as_bytes(std::span(asked)))
+        .buffer("writeonly buffer", "Answers", sizeof(Answer) == sizeof(vec2) ? "vec2 answers[];" : "vec4 answers[];",
+                answers);
+    const std::string text = inputs.text() + include_line(file) +
+                             "layout(local_size_x = 64) in;\n"
+                             "void main() {\n"
+                             "    uint i = gl_GlobalInvocationID.x;\n"
+                             "    if (i < asked.length()) {\n"
+                             "        ivec4 rectangle = asked[i];\n" +
+                             body + "    }\n}\n";
+    const auto groups = static_cast<std::uint32_t>((asked.size() + 63) / 64);
+    graph.add_pass(
+        "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
+        [=](Recorder& r) {
+            r.bind(ComputeDesc{{ShaderKind::compute, "ask", text}, {}});
+            inputs.set(r);
+            r.dispatch(groups, 1);
+        });
+    graph.execute(false);
+    const std::vector<std::byte> bytes = graph.download(answers);
+    std::vector<Answer> read(asked.size());
+    std::memcpy(read.data(), bytes.data(), asked.size() * sizeof(Answer));
+    return read;
+}
+
 TEST(Derived, RectanglesAreCoveredByFourFetches) {
     const test::ValidationGuard guard;
     constexpr int rectangles = 200;
@@ -273,37 +305,13 @@ TEST(Derived, RectanglesAreCoveredByFourFetches) {
     const TextureHandle map = source.draw(graph);
     const TextureHandle pyramid = add_min_max_pyramid(graph, map);
     const TextureHandle buffer = add_n_buffer(graph, map, NBuffer::min_max);
-    const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec4)});
-    graph.keep(answers);
     ShaderInputs inputs;
-    inputs.texture("sampler2DArray", "pyramid", pyramid)
-        .texture("sampler2DArray", "n_buffer", buffer)
-        .block("readonly buffer", "Asked", "ivec4 asked[];", std::as_bytes(std::span(asked)))
-        .buffer("writeonly buffer", "Answers", "vec4 answers[];", answers);
-    graph.add_pass(
-        "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
-        [=](Recorder& r) {
-            r.bind(ComputeDesc{{ShaderKind::compute, "ask", inputs.text() + R"(
-#include "shadow/receiver/map_range.glsl"
-layout(local_size_x = 64) in;
-void main() {
-    uint i = gl_GlobalInvocationID.x;
-    if (i < asked.length()) {
-        ivec4 rectangle = asked[i];
+    inputs.texture("sampler2DArray", "pyramid", pyramid).texture("sampler2DArray", "n_buffer", buffer);
+    const std::vector<vec4> read = answers_of<vec4>(graph, inputs, asked, "shadow/receiver/map_range.glsl", R"(
         int levels = textureQueryLevels(pyramid);
         answers[i] = vec4(gn_pyramid_min_max(pyramid, rectangle.xy, rectangle.zw, 1, levels),
                           gn_n_buffer_min_max(n_buffer, rectangle.xy, rectangle.zw, 1, levels));
-    }
-}
-)"},
-                               {}});
-            inputs.set(r);
-            r.dispatch((rectangles + 63) / 64, 1);
-        });
-    graph.execute(false);
-    const std::vector<std::byte> bytes = graph.download(answers);
-    std::vector<vec4> read(rectangles);
-    std::memcpy(read.data(), bytes.data(), rectangles * sizeof(vec4));
+)");
     for (int i = 0; i < rectangles; ++i) {
         const ivec2 first(asked[static_cast<std::size_t>(i)]),
             last(asked[static_cast<std::size_t>(i)].z, asked[static_cast<std::size_t>(i)].w);
@@ -340,33 +348,12 @@ TEST(Derived, ARectanglesTexelsDecideAndNoOthers) {
         }
         FrameGraph graph(test::device());
         const TextureHandle pyramid = add_min_max_pyramid(graph, source.draw(graph));
-        const BufferHandle answers = graph.create(BufferDesc{.name = "answers", .bytes = rectangles * sizeof(vec2)});
-        graph.keep(answers);
         ShaderInputs inputs;
-        inputs.texture("sampler2DArray", "pyramid", pyramid)
-            .block("readonly buffer", "Asked", "ivec4 asked[];", std::as_bytes(std::span(asked)))
-            .buffer("writeonly buffer", "Answers", "vec2 answers[];", answers);
-        graph.add_pass(
-            "ask", [&](PassBuilder& pass) { inputs.declare(pass); },
-            [=](Recorder& r) {
-                r.bind(ComputeDesc{{ShaderKind::compute, "ask", inputs.text() + R"(
-#include "shadow/receiver/map_any.glsl"
-layout(local_size_x = 64) in;
-void main() {
-    uint i = gl_GlobalInvocationID.x;
-    if (i < asked.length()) {
-        ivec4 rectangle = asked[i];
+        inputs.texture("sampler2DArray", "pyramid", pyramid);
+        const std::vector<vec2> read = answers_of<vec2>(graph, inputs, asked, "shadow/receiver/map_any.glsl", R"(
         answers[i] = vec2(gn_pyramid_any(pyramid, rectangle.xy, rectangle.zw, 1, 0.9, true) ? 1.0 : 0.0,
                           gn_pyramid_any(pyramid, rectangle.xy, rectangle.zw, 1, 0.1, false) ? 1.0 : 0.0);
-    }
-}
-)"},
-                                   {}});
-                inputs.set(r);
-                r.dispatch((rectangles + 63) / 64, 1);
-            });
-        graph.execute(false);
-        const std::vector<vec2> read = pairs_of(graph.download(answers));
+)");
         int any = 0;
         for (std::size_t i = 0; i < rectangles; ++i) {
             const vec2 exact = source.range(ivec2(asked[i]), ivec2(asked[i].z, asked[i].w), 1);
