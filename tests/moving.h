@@ -11,9 +11,8 @@ constexpr uint moving_width = 96, moving_height = 64;
 
 /// The next frame of the scene's first camera; a history keeps what outlives frames, null keeps nothing.
 inline FrameResult draw_moving(SceneGpu& gpu, const Recipe& recipe, History* history) {
-    return render_frame(
-        device(), gpu, gpu.scene->cameras.front(), recipe,
-        {.width = moving_width, .height = moving_height, .picture = false, .history = history});
+    return render_frame(device(), gpu, gpu.scene->cameras.front(), recipe,
+                        {.width = moving_width, .height = moving_height, .picture = false, .history = history});
 }
 
 /// The root mean square error of such a frame's first light beside one traced ray a sample.
