@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace gn {
+namespace gn::assets_test {
 namespace {
 
 constexpr const char* plate = "mtllib ../library/m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nusemtl m\nf 1 2 3 4\n";
@@ -60,4 +60,4 @@ TEST(Up, IsYOrZ) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::assets_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace gn {
+namespace gn::bake_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST(Bake, AFullOrUnwritableDiskLeavesNoHalfFolder) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bake_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <regex>
 
-namespace gn {
+namespace gn::command_test {
 namespace {
 
 using nlohmann::json;
@@ -237,4 +237,4 @@ TEST(Show, RecipesScenesMetricsAndBiasHavePages) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::command_test

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <thread>
 
-namespace gn {
+namespace gn::compare_test {
 namespace {
 
 using nlohmann::json;
@@ -381,4 +381,4 @@ TEST(Doctor, SaysWhatThisMachineCanDo) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::compare_test

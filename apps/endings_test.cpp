@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace gn {
+namespace gn::endings_test {
 namespace {
 
 using nlohmann::json;
@@ -107,4 +107,4 @@ TEST(Endings, ARecipeWhoseStagesDoNotFitWritesNoPicture) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::endings_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace gn {
+namespace gn::ground_test {
 namespace {
 
 using nlohmann::json;
@@ -108,4 +108,4 @@ TEST(Antialias, SmoothsThePictureAndLeavesVisibilityAlone) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::ground_test

@@ -12,7 +12,7 @@
 #include <map>
 #include <sstream>
 
-namespace gn {
+namespace gn::hostile_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ TEST(HostileFiles, EndAsTheirIndexWants) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::hostile_files_test

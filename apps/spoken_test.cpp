@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace gn {
+namespace gn::spoken_test {
 namespace {
 
 using nlohmann::json;
@@ -181,4 +181,4 @@ TEST(Spoken, RefusalsOfManyLightsAreGroupedByReason) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::spoken_test

@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-namespace gn {
+namespace gn::image_test {
 namespace {
 
 /// A folder that is removed at the end.
@@ -130,4 +130,4 @@ TEST_F(ImageFiles, BrokenExrIsAnError) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::image_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::kept_test {
 namespace {
 
 TEST(Kept, WhatIsKeptFollowsItsVersion) {
@@ -23,4 +23,4 @@ TEST(Kept, WhatIsKeptFollowsItsVersion) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::kept_test

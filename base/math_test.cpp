@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::math_test {
 namespace {
 
 TEST(CompleteFrame, IsUnitOrthogonalAndRightHandedInEveryDirection) {
@@ -28,4 +28,4 @@ TEST(CompleteFrame, IsUnitOrthogonalAndRightHandedInEveryDirection) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::math_test

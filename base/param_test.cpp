@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::param_test {
 namespace {
 
 struct GnTestParams {
@@ -97,4 +97,4 @@ TEST(Param, SuggestOnlyWhatIsNear) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::param_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::paths_test {
 namespace {
 
 TEST(Paths, RoomIsWhatCouldBeWritten) {
@@ -17,4 +17,4 @@ TEST(Paths, RoomIsWhatCouldBeWritten) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::paths_test

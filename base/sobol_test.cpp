@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace gn {
+namespace gn::sobol_test {
 namespace {
 
 TEST(Sobol, UnscrambledPointsArePublishedOnes) {
@@ -94,4 +94,4 @@ TEST(SobolOwen, MeanOfSmoothFunctionConvergesFasterThanChance) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sobol_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gn {
+namespace gn::stats_test {
 namespace {
 
 TEST(Stats, MedianAndPercentiles) {
@@ -37,4 +37,4 @@ TEST(Stats, RunningMeanAndVariance) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::stats_test

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace gn {
+namespace gn::baked_shaders_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST_F(Baked, ADamagedShaderIsASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::baked_shaders_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::device_test {
 namespace {
 
 class Devices : public Rendered {};
@@ -173,4 +173,4 @@ TEST(Validation, SeesAMissingBarrier) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::device_test

@@ -15,8 +15,10 @@ constexpr std::uint64_t frames_unused = 64;
 /// A host that alternates between more pictures than this makes them anew.
 constexpr std::size_t most_plans = 8;
 
+}  // namespace
+
 /// A declaration that was seen, with all that it needs on the device.
-struct Planned {
+struct FramePlan {
     Fingerprint key;
     GraphDeclaration declaration;  ///< as first seen; what resources look into
     GraphPlan plan;
@@ -31,12 +33,12 @@ struct Planned {
     }
 };
 
-struct Slot {
-    explicit Slot(Device& device) : arena(device), timestamps(device) {}
+struct FrameSlot {
+    explicit FrameSlot(Device& device) : arena(device), timestamps(device) {}
     UploadArena arena;
     PassTimestamps timestamps;
     std::vector<std::shared_ptr<const void>> retired;
-    std::shared_ptr<Planned> recorded;                  ///< what was recorded last
+    std::shared_ptr<FramePlan> recorded;                ///< what was recorded last
     std::shared_ptr<const GraphStatistics> statistics;  ///< of that
     GraphStatistics completed;
     struct Waiting {
@@ -45,6 +47,8 @@ struct Slot {
     };
     std::vector<Waiting> waiting;  ///< for answers that the device writes into the arena
 };
+
+namespace {
 
 /// Brings what may differ between frames of one plan from `now` to `held`; whether anything did.
 bool follow(GraphDeclaration& held, const GraphDeclaration& now) {
@@ -66,15 +70,15 @@ bool follow(GraphDeclaration& held, const GraphDeclaration& now) {
 
 struct Frames::Impl {
     Device& device;
-    std::vector<std::unique_ptr<Slot>> slots;
-    std::vector<std::shared_ptr<Planned>> plans;
+    std::vector<std::unique_ptr<FrameSlot>> slots;
+    std::vector<std::shared_ptr<FramePlan>> plans;
     std::uint32_t slot = 0;
     std::uint64_t frame = 0;
 
-    std::shared_ptr<Planned> planned_for(const GraphDeclaration& declaration, const Imports& imports) {
+    std::shared_ptr<FramePlan> planned_for(const GraphDeclaration& declaration, const Imports& imports) {
         const Fingerprint key = fingerprint(declaration);
         const auto found = std::find_if(plans.begin(), plans.end(), [&](const auto& held) { return held->key == key; });
-        std::shared_ptr<Planned> planned = found != plans.end() ? *found : make(key, declaration, imports);
+        std::shared_ptr<FramePlan> planned = found != plans.end() ? *found : make(key, declaration, imports);
         planned->last_used = frame;
         planned->resources->rebind(imports);
         if (follow(planned->declaration, declaration)) {
@@ -83,8 +87,9 @@ struct Frames::Impl {
         return planned;
     }
 
-    std::shared_ptr<Planned> make(const Fingerprint& key, const GraphDeclaration& declaration, const Imports& imports) {
-        auto planned = std::make_shared<Planned>();
+    std::shared_ptr<FramePlan> make(const Fingerprint& key, const GraphDeclaration& declaration,
+                                    const Imports& imports) {
+        auto planned = std::make_shared<FramePlan>();
         planned->key = key;
         planned->declaration = declaration;
         planned->resources = std::make_unique<GraphResources>(device, planned->declaration, imports);
@@ -110,7 +115,7 @@ Frames::Frames(Device& device, std::uint32_t in_flight) : impl_(new Impl{.device
         fail("{} frames in flight; valid is 1 to {}", in_flight, most_in_flight);
     }
     for (std::uint32_t i = 0; i < in_flight; ++i) {
-        impl_->slots.push_back(std::make_unique<Slot>(device));
+        impl_->slots.push_back(std::make_unique<FrameSlot>(device));
     }
 }
 
@@ -126,7 +131,7 @@ void Frames::begin(std::uint32_t slot) {
     }
     impl_->slot = slot;
     ++impl_->frame;
-    Slot& held = *impl_->slots[slot];
+    FrameSlot& held = *impl_->slots[slot];
     const std::vector<double> ms = held.timestamps.read(false);
     if (held.recorded != nullptr) {
         held.completed = *held.statistics;
@@ -135,13 +140,13 @@ void Frames::begin(std::uint32_t slot) {
     for (std::size_t i = 0; i < ms.size() && i < held.completed.passes.size(); ++i) {
         held.completed.passes[i].ms = ms[i];
     }
-    for (const Slot::Waiting& waiting : held.waiting) {
+    for (const FrameSlot::Waiting& waiting : held.waiting) {
         waiting.receive(waiting.bytes);
     }
     held.waiting.clear();
     held.retired.clear();
     held.arena.reset();
-    for (const std::unique_ptr<Slot>& other : impl_->slots) {
+    for (const std::unique_ptr<FrameSlot>& other : impl_->slots) {
         held.arena.match(other->arena);
     }
     impl_->retire_unused();
@@ -163,8 +168,8 @@ std::size_t Frames::plans() const {
 namespace {
 
 /// Copies the answers to where the host will find them.
-void write_answers(const GraphDeclaration& declaration, const Planned& planned, const std::vector<Answer>& answers,
-                   Slot& slot, VkCommandBuffer commands) {
+void write_answers(const GraphDeclaration& declaration, const FramePlan& planned, const std::vector<Answer>& answers,
+                   FrameSlot& slot, VkCommandBuffer commands) {
     if (answers.empty()) {
         return;
     }
@@ -188,16 +193,16 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     const GraphDeclaration& declaration, const Imports& imports,
     const std::vector<std::function<void(Recorder&)>>& executes, const std::vector<Answer>& answers,
     VkCommandBuffer commands) {
-    const std::shared_ptr<Planned> held = impl_->planned_for(declaration, imports);
-    Planned& planned = *held;
-    Slot& slot = *impl_->slots[impl_->slot];
+    const std::shared_ptr<FramePlan> held = impl_->planned_for(declaration, imports);
+    FramePlan& planned = *held;
+    FrameSlot& slot = *impl_->slots[impl_->slot];
     const bool stamps = impl_->device.has(Feature::timestamps);
     PassWriter writer(impl_->device, declaration, *planned.resources, slot.arena);
     const std::vector<Turn> turns = turns_of(declaration, planned.plan);
 
     // What a frame that fails waits for never comes.
     struct Waiting {
-        Slot& slot;
+        FrameSlot& slot;
         bool whole = false;
         ~Waiting() {
             if (!whole) {

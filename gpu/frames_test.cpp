@@ -6,7 +6,7 @@
 #include "gpu/null_device.h"
 #include "gpu/test_device.h"
 
-namespace gn {
+namespace gn::frames_test {
 namespace {
 
 /// A host: command buffers and fences of its own, a ring of slots.
@@ -308,4 +308,4 @@ TEST(Fingerprint, SaysWhatAPlanDependsOnAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::frames_test

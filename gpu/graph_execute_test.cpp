@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace gn {
+namespace gn::graph_execute_test {
 namespace {
 
 class Graph : public Rendered {
@@ -561,4 +561,4 @@ TEST_F(Misuse, TheGraphWorksAgainAfterAnError) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::graph_execute_test

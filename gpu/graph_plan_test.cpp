@@ -4,7 +4,7 @@
 #include "gpu/null_device.h"
 #include "gpu/test_device.h"
 
-namespace gn {
+namespace gn::graph_plan_test {
 namespace {
 
 constexpr VkPipelineStageFlags2 compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -462,4 +462,4 @@ TEST_F(Plan, ExecutingOnNothingStillAccounts) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::graph_plan_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::graph_random_test {
 namespace {
 
 constexpr VkAccessFlags2 write_bits = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
@@ -270,4 +270,4 @@ TEST(RandomPlacement, LivingResourcesNeverOverlap) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::graph_random_test

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace gn {
+namespace gn::memory_test {
 namespace {
 
 TEST(TexelBytes, AreTheFormatsArithmetic) {
@@ -141,4 +141,4 @@ TEST_F(Memory, UploadsOfTheWrongSizeAreSentences) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::memory_test

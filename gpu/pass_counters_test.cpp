@@ -4,7 +4,7 @@
 
 #include "gpu/test_device.h"
 
-namespace gn {
+namespace gn::pass_counters_test {
 namespace {
 
 class Counted : public Rendered {
@@ -122,4 +122,4 @@ TEST(LeastBytes, WritesAreWholeAndReadsAreAsManyAsInvocations) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::pass_counters_test

@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-namespace gn {
+namespace gn::pipeline_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ TEST_F(PipelinesOnDisk, AreNotKeptWithoutAFolder) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::pipeline_cache_test

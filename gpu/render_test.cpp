@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace gn {
+namespace gn::render_test {
 namespace {
 
 constexpr std::uint32_t side = 16;
@@ -499,4 +499,4 @@ TEST_F(Raster, DepthBiasMovesByItsConstant) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::render_test

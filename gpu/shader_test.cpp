@@ -11,7 +11,7 @@
 
 #include <unistd.h>
 
-namespace gn {
+namespace gn::shader_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -317,4 +317,4 @@ TEST(Fingerprints, DependOnEveryByteAndBoundary) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::shader_test

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace gn {
+namespace gn::builtin_test {
 namespace {
 
 struct Hit {
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Analytic,
                                                                       "fence", "corridor", "duel"})));
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::builtin_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::light_sample_test {
 namespace {
 
 constexpr unsigned count = 4096;
@@ -199,4 +199,4 @@ TEST(LightSample, InsideTheSphereAllDirectionsMeetIt) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::light_sample_test

@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::occluders_test {
 namespace {
 
 GnLight sun_towards(vec3 towards, float angular_radius = 0) {
@@ -502,4 +502,4 @@ TEST(Occluders, RaysUnderTheHorizonAreTracedAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::occluders_test

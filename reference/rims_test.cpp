@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::rims_test {
 namespace {
 
 GnLight sun_from(vec3 towards_light_ws) {
@@ -131,4 +131,4 @@ TEST(Rims, ThreadsChangeNothing) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::rims_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace gn {
+namespace gn::truth_picture_test {
 namespace {
 
 TruthResult made_up(int channels) {
@@ -39,4 +39,4 @@ TEST(TruthPicture, AFileKeepsATruthOfOneChannelAndOfThree) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::truth_picture_test

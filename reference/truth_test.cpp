@@ -11,7 +11,7 @@
 #include <atomic>
 #include <thread>
 
-namespace gn {
+namespace gn::truth_test {
 namespace {
 
 /// size x size points of the square [-half, half]^2 of the plane y = 0.
@@ -294,4 +294,4 @@ TEST(Truth, EmptySceneBlocksNothing) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::truth_test

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <set>
 
-namespace gn {
+namespace gn::builtin_test {
 namespace {
 
 using Point = std::array<float, 3>;
@@ -349,4 +349,4 @@ TEST(Builtin, TableDescribesEveryParameter) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::builtin_test

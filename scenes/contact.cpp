@@ -13,7 +13,7 @@ struct GnContactParams {
     int light = 0;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_contact(const ParamBlock& block) {
     using contact_scene::half_width, contact_scene::height;
     const auto params = block.as<GnContactParams>();
     const SolidBox box{{-half_width, 0, -half_width}, {half_width, height, half_width}};
@@ -62,7 +62,7 @@ const Generator& contact() {
                      "Angular radius of the light as seen from the box: 0 is hard."),
             GN_CHOICE(GnContactParams, light, "The kind of light.", "directional", "spot", "point"),
         }),
-        make};
+        make_contact};
     return row;
 }
 

@@ -52,7 +52,7 @@ Camera camera_at(std::string name, float z, float yaw) {
     return look_at(std::move(name), eye, eye + vec3(std::sin(yaw), -0.16F, -std::cos(yaw)), 58, 0.1F, 500);
 }
 
-Scene make(const ParamBlock& block) {
+Scene make_corridor(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
     const std::array groups{shell(), beams(), things()};
@@ -98,7 +98,7 @@ const Generator& corridor() {
         "corridor", "A corridor from 0.1 m to 500 m with skylights: breaks single maps by perspective aliasing.",
         param_table<GnCorridorParams>({GN_PARAM(GnCorridorParams, radius, real, 0, 5, "degrees",
                                                 "Angular radius of the sun: 0 is a hard shadow.")}),
-        make};
+        make_corridor};
     return row;
 }
 

@@ -29,7 +29,7 @@ std::vector<SolidBox> stones() {
     return solids;
 }
 
-Scene make(const ParamBlock& block) {
+Scene make_duel(const ParamBlock& block) {
     const auto params = block.as<GnDuelParams>();
     const std::vector<SolidBox> solids = stones();
     Scene scene;
@@ -75,7 +75,7 @@ const Generator& duel() {
                                             "Angular radius of the light as seen from the stones: 0 is hard."),
                                    GN_CHOICE(GnDuelParams, light, "The kind of light.", "directional", "spot", "point"),
                                }),
-                               make};
+                               make_duel};
     return row;
 }
 

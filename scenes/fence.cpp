@@ -35,7 +35,7 @@ std::vector<SolidBox> fence_row(double z, double bar) {
     return row;
 }
 
-Scene make(const ParamBlock& block) {
+Scene make_fence(const ParamBlock& block) {
     const auto params = block.as<GnFenceParams>();
     Scene scene;
     MeshBuilder builder(scene);
@@ -74,7 +74,7 @@ const Generator& fence() {
             GN_PARAM(GnFenceParams, bar, real, 0.002, 0.1, "m", "Thickness of a bar."),
             GN_PARAM(GnFenceParams, radius, real, 0, 5, "degrees", "Angular radius of the sun: 0 is a hard shadow."),
         }),
-        make};
+        make_fence};
     return row;
 }
 

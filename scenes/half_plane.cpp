@@ -9,7 +9,7 @@ namespace {
 
 constexpr float light_height = 4.0F, occluder_height = 2.0F;
 
-Scene make(const ParamBlock& block) {
+Scene make_half_plane(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
     const int floor = builder.material("chalk", {0.62F, 0.58F, 0.52F});
@@ -41,7 +41,7 @@ const Generator& half_plane() {
     static const Generator row{
         "half-plane",
         "A half-plane occluder over a parallel receiver: a linear penumbra; breaks wrong penumbra widths.",
-        param_table<GnOverheadLightParams>(overhead_light_rows()), make};
+        param_table<GnOverheadLightParams>(overhead_light_rows()), make_half_plane};
     return row;
 }
 

@@ -15,7 +15,7 @@ struct GnOverlapParams {
     int arrangement = 0;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_overlap(const ParamBlock& block) {
     const auto params = block.as<GnOverlapParams>();
     // The low occluder covers x < 0 everywhere; the high one covers the same half, or the other.
     std::vector<Sheet> sheets{{low_height, {-far_away, -far_away}, {0, far_away}}};
@@ -69,7 +69,7 @@ const Generator& overlap() {
     static const Generator row{
         "overlap",
         "Two occluders hide the same half of the light, or both halves: occluder fusion; breaks added areas.", params(),
-        make};
+        make_overlap};
     return row;
 }
 

@@ -7,9 +7,9 @@
 namespace gn::scenes {
 namespace {
 
-constexpr float light_height = 4.5F, slab_height = 1.5F, half_x = 0.6F, half_z = 0.4F;
+constexpr float lamp_height = 4.5F, slab_height = 1.5F, half_x = 0.6F, half_z = 0.4F;
 
-Scene make(const ParamBlock& block) {
+Scene make_slab(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
     const int floor = builder.material("clay", {0.60F, 0.47F, 0.38F});
@@ -20,7 +20,7 @@ Scene make(const ParamBlock& block) {
     builder.sheet({-half_x, slab_height, half_z}, {2 * half_x, 0, 0}, {0, 0, -2 * half_z});
     builder.finish();
 
-    scene.lights.push_back(overhead_light(block.as<GnOverheadLightParams>(), light_height));
+    scene.lights.push_back(overhead_light(block.as<GnOverheadLightParams>(), lamp_height));
     scene.cameras.push_back(look_at("main", {0.25F, 1.4F, 1.5F}, {0.05F, 0, 0.1F}, 60, 0.1F, 40));
 
     // The slab's projection covers the light by overlap_x times overlap_z, each a clipped linear ramp in the
@@ -37,7 +37,7 @@ Scene make(const ParamBlock& block) {
 const Generator& slab() {
     static const Generator row{
         "slab", "A rectangle over a parallel receiver: a product of two ramps; breaks kernels of the wrong shape.",
-        param_table<GnOverheadLightParams>(overhead_light_rows()), make};
+        param_table<GnOverheadLightParams>(overhead_light_rows()), make_slab};
     return row;
 }
 

@@ -14,7 +14,7 @@ struct GnStackParams {
     float radius = 0;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_stack(const ParamBlock& block) {
     const std::vector<Sheet> sheets{{height_a, {-6, -6}, {edge_x, 6}},
                                     {height_b, {-half_width_b, -half_width_b}, {half_width_b, half_width_b}}};
     Scene scene;
@@ -48,7 +48,7 @@ const Generator& stack() {
         "stack", "Three parallel planes, the middle one half in shadow: breaks variance maps by light bleeding.",
         param_table<GnStackParams>({GN_PARAM(GnStackParams, radius, real, 0, 10, "degrees",
                                              "Angular radius of the sun: 0 is a hard shadow.")}),
-        make};
+        make_stack};
     return row;
 }
 

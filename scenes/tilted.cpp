@@ -13,7 +13,7 @@ struct GnTiltedParams {
     int light = 0;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_tilted(const ParamBlock& block) {
     const auto params = block.as<GnTiltedParams>();
     // A plane in general position, so that no axis makes its depths exact by accident.
     const vec3 n = glm::normalize(vec3(0.31F, 1.0F, 0.23F));
@@ -63,7 +63,7 @@ const Generator& tilted() {
                      "Angular radius of the light as seen from the plane's centre."),
             GN_CHOICE(GnTiltedParams, light, "The kind of light.", "directional", "spot", "point"),
         }),
-        make};
+        make_tilted};
     return row;
 }
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::animated_test {
 namespace {
 
 AnimatedScene column() {
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Recipes, Animated,
                          });
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::animated_test

@@ -3,7 +3,7 @@
 #include "base/paths.h"
 #include "tests/little_gltf.h"
 
-namespace gn {
+namespace gn::casting_test {
 namespace {
 
 using test::box;
@@ -197,4 +197,4 @@ TEST(CastingFiles, LampsInGlassOrInTheirBulbsLightTheRoom) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::casting_test

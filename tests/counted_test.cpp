@@ -3,7 +3,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::counted_test {
 namespace {
 
 TEST(Counted, GrazingSurfacesDoNotCount) {
@@ -59,4 +59,4 @@ TEST(Counted, WallsUnderAZenithSunAreNoErrorOfAnybody) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::counted_test

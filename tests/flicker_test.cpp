@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::flicker_test {
 namespace {
 
 constexpr uint width = 640, height = 360;
@@ -125,4 +125,4 @@ TEST(FlickerRendered, MostOfWhatRemainsIsThatOfAMapThatNeverChanges) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::flicker_test

@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-namespace gn {
+namespace gn::include_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -150,4 +150,4 @@ TEST(Include, an_unguarded_file_is_noticed) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::include_test

@@ -102,17 +102,28 @@ def part_shape(tree):
 
 def part_definitions(tree):
     """Every part's .cpp ends with its one function: `namespace parts`, in it `static const Part part = [] { Part p; p.id = ...`,
-    `p.stage = ...`; helpers stand before it in namespace gn."""
+    `p.stage = ...`; helpers stand before it in namespaces of their own."""
     complaints = []
     for stage, folder, files in tree.parts():
         if f"{folder}.cpp" not in files:
             continue
         where = f"shadow/{stage}/{folder}/{folder}.cpp"
-        shape = (rf"\nnamespace (?:gn::)?parts {{\n\nconst Part& {stage}_{folder}\(\) {{\n    static const Part part = \[\] {{\n"
+        shape = (rf"\nnamespace (?:gn::)?parts {{\n\nconst Part& {stage}_{folder}\(\) {{\n(?:    using namespace [a-z_:]+;\n)?    static const Part part = \[\] {{\n"
                  rf'        Part p;\n        p\.id = "{folder.replace("_", "-")}";\n        p\.stage = Stage::{stage};\n')
         if not re.search(shape, tree.text(where)):
             complaints.append(f"{where}: define the part as its siblings do: const Part& {stage}_{folder}() in namespace parts, "
                               "a lambda that fills `Part p`, id and stage first")
+    return complaints
+
+
+def unnamed_names(tree):
+    """Eight sources compile as one: what parts and tests call alike stands in namespaces of their own, not in gn's unnamed one."""
+    main = {f"shadow/{stage}/{folder}/{folder}.cpp": f"gn::parts::{folder}" for stage, folder, _ in tree.parts()}
+    complaints = []
+    for name in tree.having({".cpp"}):
+        own = f"gn::{pathlib.Path(name).stem}" if name.endswith("_test.cpp") else main.get(name)
+        if own and re.search(r"^namespace gn {\nnamespace {$", tree.text(name), re.M):
+            complaints.append(f"{name}: its unnamed namespace stands in gn; put it into namespace {own}")
     return complaints
 
 
@@ -439,5 +450,5 @@ def mutants(tree):
     return complaints
 
 
-ALL = (part_shape, part_definitions, layering, parts_are_strangers, stages_are_strangers, includes_resolve, folder_names, file_sizes, licence_lines, citations,
-       keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, long_shader_texts, named_bindings, recipes, manual_pages, mutants)
+ALL = (part_shape, part_definitions, unnamed_names, layering, parts_are_strangers, stages_are_strangers, includes_resolve, folder_names, file_sizes,
+       licence_lines, citations, keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, long_shader_texts, named_bindings, recipes, manual_pages, mutants)

@@ -47,6 +47,8 @@ BREACHES = [
     (rules.part_shape, {"shadow/lookup/Soft-2/x.cpp": SPDX}, "lower-case"),
     (rules.part_shape, {f"{PART}.cpp": SPDX + "// Also here: absent.comp (edges)\n"}, "which is not there"),
     (rules.part_definitions, {f"{PART}.cpp": GOOD[f"{PART}.cpp"].replace("= [] {", "{")}, "as its siblings do"),
+    (rules.unnamed_names, {f"{PART}.cpp": GOOD[f"{PART}.cpp"] + "namespace gn {\nnamespace {\n}\n}\n"}, "gn::parts::soft"),
+    (rules.unnamed_names, {f"{PART}_test.cpp": SPDX + "namespace gn {\nnamespace {\n}\n}\n"}, "gn::soft_test"),
     (rules.layering, {"base/a.cpp": SPDX + '#include "gpu/device.h"\n'}, "gpu/device.h"),
     (rules.layering, {"gpu/a.cpp": SPDX + '#include "shadow/recipe/part.h"\n'}, "shadow/recipe/part.h"),
     (rules.layering, {"shadow/scene/a.cpp": SPDX + '#include "gpu/device.h"\n'}, "gpu/device.h"),

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace gn {
+namespace gn::memory_test {
 namespace {
 
 constexpr VkDeviceSize side = 64;
@@ -99,4 +99,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::memory_test

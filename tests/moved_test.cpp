@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::moved_test {
 namespace {
 
 class Moved : public testing::TestWithParam<const char*> {};
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(Recipes, Moved,
                          });
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::moved_test

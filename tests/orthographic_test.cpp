@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace gn {
+namespace gn::orthographic_test {
 namespace {
 
 constexpr uint size = 96;
@@ -141,4 +141,4 @@ TEST(OrthographicRendered, TheCaseIsItsTruth) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::orthographic_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace gn {
+namespace gn::parameter_sweep_test {
 namespace {
 
 /// The texts to try for a row: its ends, or all of its choices.
@@ -159,4 +159,4 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(Recipes, ParameterSweep, testing::ValuesIn(recipe_names()), test_name);
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::parameter_sweep_test

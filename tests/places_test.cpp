@@ -4,7 +4,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::places_test {
 namespace {
 
 /// A ground, a slab on posts and a lamp's worth of sun, `scale` large, with its zero at `zero`.
@@ -92,4 +92,4 @@ TEST(Places, AContactShadowFortyKilometresFromTheMiddle) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::places_test

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <map>
 
-namespace gn {
+namespace gn::real_scenes_test {
 namespace {
 
 using namespace testing_scene;
@@ -246,4 +246,4 @@ TEST(BadFiles, RandomDamageNeverCrashes) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::real_scenes_test

@@ -3,7 +3,7 @@
 #include "tests/rescaled.h"
 #include "tests/thorough.h"
 
-namespace gn {
+namespace gn::scale_test {
 namespace {
 
 using test::count_differing, test::lit_scene, test::rescaled, test::visibility_of, test::with_stray;
@@ -109,4 +109,4 @@ TEST(Scale, ASingleMapUnderASunSaysWhatAStrayCosts) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::scale_test

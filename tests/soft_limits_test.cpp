@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::soft_limits_test {
 namespace {
 
 std::vector<float> values_of(const Scene& scene, const Recipe& recipe, std::size_t light) {
@@ -121,4 +121,4 @@ INSTANTIATE_TEST_SUITE_P(Recipes, SoftLimitsOf,
                          name_of_case);
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::soft_limits_test

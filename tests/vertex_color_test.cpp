@@ -3,7 +3,7 @@
 #include "base/paths.h"
 #include "tests/little_gltf.h"
 
-namespace gn {
+namespace gn::vertex_color_test {
 namespace {
 
 using test::level;
@@ -137,4 +137,4 @@ TEST(VertexColorFiles, HalfTheCardCasts) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::vertex_color_test

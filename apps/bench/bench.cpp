@@ -16,7 +16,7 @@
 namespace gn {
 namespace {
 
-std::vector<Recipe> read_recipes(const std::vector<std::string>& texts) {
+std::vector<Recipe> recipes_of(const std::vector<std::string>& texts) {
     std::vector<Recipe> recipes;
     for (const std::string& text : texts) {
         try {
@@ -51,7 +51,7 @@ BenchedRun benched(SceneGpu& gpu, const Camera& camera, const Recipe& recipe, De
 
 int run(const BenchOptions& options) {
     // Everything that the user may have got wrong is found before the first pass.
-    const std::vector<Recipe> recipes = read_recipes(options.recipes);
+    const std::vector<Recipe> recipes = recipes_of(options.recipes);
     const Scene scene = reading([&] { return load_asked(options.scene, options.file, options.size).scene; });
     const Camera camera = reading([&] { return scene.camera(options.view); });
     if (options.json != "-") {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace gn {
+namespace gn::bench_command_test {
 namespace {
 
 using nlohmann::json;
@@ -92,4 +92,4 @@ TEST(BenchCommand, MisuseIsASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bench_command_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::bottleneck_test {
 namespace {
 
 /// A machine of round numbers, nanoseconds: 10 us a pass, 0.1 Gvertices/s, 1 Gfragments/s, 10 GB/s, 100 Gmadd/s.
@@ -134,4 +134,4 @@ TEST(Bottleneck, RoundsOfAPassAddUp) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bottleneck_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace gn {
+namespace gn::study_math_test {
 namespace {
 
 /// Uniform in [0,1), the same on every machine.
@@ -202,4 +202,4 @@ TEST(Csv, QuotesWhatItMustAndDisarmsFormulas) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::study_math_test

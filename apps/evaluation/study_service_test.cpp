@@ -17,7 +17,7 @@
 #include <fstream>
 #include <random>
 
-namespace gn {
+namespace gn::study_service_test {
 namespace {
 
 using nlohmann::json;
@@ -338,4 +338,4 @@ TEST(Study, PlansThatMakeNoSenseAreRefused) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::study_service_test

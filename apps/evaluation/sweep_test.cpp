@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace gn {
+namespace gn::sweep_test {
 namespace {
 
 constexpr const char* small_sweep = R"(
@@ -299,4 +299,4 @@ TEST(ShippedSweeps, AreReadable) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sweep_test

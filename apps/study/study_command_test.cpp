@@ -15,7 +15,7 @@
 #include <sstream>
 #include <thread>
 
-namespace gn {
+namespace gn::study_command_test {
 namespace {
 
 using nlohmann::json;
@@ -222,4 +222,4 @@ TEST(StudyCommand, MisuseIsASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::study_command_test

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <thread>
 
-namespace gn {
+namespace gn::sweep_command_test {
 namespace {
 
 using nlohmann::json;
@@ -213,4 +213,4 @@ TEST(Compare, HoldsPicturesAgainstLightShadedByAllOfTheArea) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sweep_command_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <functional>
 
-namespace gn {
+namespace gn::setup_test {
 namespace {
 
 std::string error_of(const std::function<void()>& action) {
@@ -130,4 +130,4 @@ TEST(RecipeText, TellsWhatEveryKeyIs) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::setup_test

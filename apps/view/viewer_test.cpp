@@ -28,7 +28,7 @@
 #include <functional>
 #include <thread>
 
-namespace gn {
+namespace gn::viewer_test {
 namespace {
 
 Device& device() {
@@ -487,4 +487,4 @@ TEST(ViewCommand, RecordsFramesWithoutAWindow) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::viewer_test

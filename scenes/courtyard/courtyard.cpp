@@ -90,7 +90,7 @@ struct GnNoParams {
     int unused = 0;
 };
 
-Scene make(const ParamBlock&) {
+Scene make_courtyard(const ParamBlock&) {
     Scene scene;
     MeshBuilder builder(scene);
     const yard::Materials m = yard::add_materials(builder, scene);
@@ -115,7 +115,7 @@ const Generator& courtyard() {
     static const Generator row{
         "courtyard",
         "A cloister court with tree, iron fence and fountain under a low sun, a lantern and a spot behind a grille.",
-        param_table<GnNoParams>({}), make};
+        param_table<GnNoParams>({}), make_courtyard};
     return row;
 }
 

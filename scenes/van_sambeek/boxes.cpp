@@ -15,7 +15,7 @@ struct GnBoxesParams {
     float size = 1.5F;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_boxes(const ParamBlock& block) {
     const auto params = block.as<GnBoxesParams>();
     Scene scene;
     MeshBuilder builder(scene);
@@ -55,7 +55,7 @@ const Generator& boxes() {
             GN_CHOICE(GnBoxesParams, light, light_sentence, "rectangle", "spot"),
             GN_PARAM(GnBoxesParams, size, real, 0.05, 6, "m", "Width of the light: softer shadows."),
         }),
-        make};
+        make_boxes};
     return row;
 }
 

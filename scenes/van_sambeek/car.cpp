@@ -64,7 +64,7 @@ void add_wheels(MeshBuilder& builder, int rubber, int steel) {
     }
 }
 
-Scene make(const ParamBlock& block) {
+Scene make_car(const ParamBlock& block) {
     const auto params = block.as<GnCarParams>();
     Scene scene;
     MeshBuilder builder(scene);
@@ -95,7 +95,7 @@ const Generator& car() {
         param_table<GnCarParams>(
             {GN_CHOICE(GnCarParams, light, light_sentence, "rectangle", "spot"),
              GN_PARAM(GnCarParams, size, real, 0.05, 2, "m", "Width of each light: softer shadows.")}),
-        make};
+        make_car};
     return row;
 }
 

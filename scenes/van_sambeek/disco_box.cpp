@@ -13,7 +13,7 @@ struct GnDiscoParams {
     float size = 0.5F;
 };
 
-Scene make(const ParamBlock& block) {
+Scene make_disco_box(const ParamBlock& block) {
     const auto params = block.as<GnDiscoParams>();
     Scene scene;
     MeshBuilder builder(scene);
@@ -44,7 +44,7 @@ const Generator& disco_box() {
         param_table<GnDiscoParams>(
             {GN_CHOICE(GnDiscoParams, light, light_sentence, "rectangle", "spot"),
              GN_PARAM(GnDiscoParams, size, real, 0.05, 1.5, "m", "Width of each light: softer shadows.")}),
-        make};
+        make_disco_box};
     return row;
 }
 

@@ -17,7 +17,7 @@ struct GnGridParams {
 
 constexpr int most_triangles = 16'000'000;
 
-Scene make(const ParamBlock& block) {
+Scene make_grid(const ParamBlock& block) {
     const auto params = block.as<GnGridParams>();
     if (static_cast<double>(params.objects) * params.triangles > most_triangles) {
         fail("scene grid: {} objects of {} triangles are too many; objects * triangles is at most {}", params.objects,
@@ -75,7 +75,7 @@ const Generator& grid() {
             GN_PARAM(GnGridParams, lights, integer, 1, 3, "", "Number of spot lights."),
             GN_PARAM(GnGridParams, radius, real, 0, 1, "m", "Radius of each light: 0 is a hard shadow."),
         }),
-        make};
+        make_grid};
     return row;
 }
 

@@ -107,7 +107,7 @@ void add_palm(MeshBuilder& builder, int bark, int green, vec3 foot, Dice& dice) 
     }
 }
 
-Scene make(const ParamBlock& block) {
+Scene make_island(const ParamBlock& block) {
     Scene scene;
     MeshBuilder builder(scene);
     const int sea =
@@ -151,7 +151,7 @@ const Generator& island() {
                        "spot"),
              GN_PARAM(GnIslandParams, radius, real, 0, 5, "degrees",
                       "Angular radius of the light as seen from the island: 0 is a hard shadow.")}),
-        make};
+        make_island};
     return row;
 }
 

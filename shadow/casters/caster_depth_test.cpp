@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::caster_depth_test {
 namespace {
 
 void add_square(Scene& scene, float y, float half) {
@@ -255,4 +255,4 @@ TEST(CastersRefused, WhereAPartCannotServeThem) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::caster_depth_test

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::conservative_test {
 namespace {
 
 constexpr int side = 40;
@@ -254,4 +254,4 @@ TEST(TexelListsRendered, AreNoLargerThanAStorageBlock) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::conservative_test

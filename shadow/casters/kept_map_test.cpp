@@ -11,7 +11,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::kept_map_test {
 namespace {
 
 struct Drawn {
@@ -136,4 +136,4 @@ TEST(KeptMap, OfAMapThatFollowsEarlierFramesIsDrawnInEveryFrame) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::kept_map_test

@@ -19,7 +19,7 @@ const PlacementTable* drawn_pages(const LightViews& views) {
 }
 
 /// Overwrites the pages with the far plane.
-RasterDesc clear_pipeline() {
+RasterDesc page_clear_pipeline() {
     RasterDesc desc = tile_quads({ShaderKind::fragment, "clear pages", "void main() { gl_FragDepth = 1.0; }\n"});
     desc.depth_test = desc.depth_write = true;
     desc.depth_compare = VK_COMPARE_OP_ALWAYS;
@@ -49,7 +49,7 @@ void add_page_passes(const FrameInput& input, const Recipe& recipe, const LightV
     drawn.kept.reset();
     const BufferHandle quads = add_tile_draw(input, drawn, tile_quad_vertices);
     const ShaderInputs quad_inputs = view_list(drawn);
-    const auto clear = made_once(input.prepared, "clear pages", 0, clear_pipeline);
+    const auto clear = made_once(input.prepared, "clear pages", 0, page_clear_pipeline);
     const std::shared_ptr<const CasterJob> job = caster_job(input, recipe, drawn, pass);
     const bool keeps = views.kept->history != nullptr;
     for (std::uint32_t layer = 0; layer < views.layers; ++layer) {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::peel_test {
 namespace {
 
 constexpr int side = 48, layers = 4;
@@ -163,4 +163,4 @@ TEST(Derived, NamesSayHowManyLayers) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::peel_test

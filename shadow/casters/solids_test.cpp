@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::solids_test {
 namespace {
 
 /// A ground, which bounds nothing, and solids: two boxes, one of them wound inwards, and a ring.
@@ -92,4 +92,4 @@ TEST(SolidsRendered, LeaveOutNothingOfASecondLayer) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::solids_test

@@ -15,7 +15,7 @@
 
 #include <fstream>
 
-namespace gn::embed {
+namespace gn::embed::baked_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -278,4 +278,4 @@ TEST(EmbedReload, AnEditedFunctionChangesTheNextFrame) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::baked_test

@@ -3,7 +3,7 @@
 // such draws cannot fill is refused by name.
 #include "tests/own_draws.h"
 
-namespace gn::embed {
+namespace gn::embed::drawn_test {
 namespace {
 
 using test::device;
@@ -184,4 +184,4 @@ TEST(Foreseen, TellsWhatAFrameWillAskFor) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::drawn_test

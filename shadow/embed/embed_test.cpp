@@ -5,7 +5,7 @@
 
 #include "tests/lent_renderer.h"
 
-namespace gn::embed {
+namespace gn::embed::embed_test {
 namespace {
 
 using test::device;
@@ -316,4 +316,4 @@ TEST(Embed, MistakesAreSentences) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::embed_test

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace gn::embed {
+namespace gn::embed::features_test {
 namespace {
 
 using test::device;
@@ -196,4 +196,4 @@ TEST(WithoutFeatures, AtOnceToo) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::features_test

@@ -4,7 +4,7 @@
 
 #include "tests/own_draws.h"
 
-namespace gn::embed {
+namespace gn::embed::gnomon_test {
 namespace {
 
 using test::device;
@@ -249,4 +249,4 @@ TEST(GnomonC, MistakesAreSentences) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::gnomon_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace gn::host {
+namespace gn::host::host_test {
 namespace {
 
 // Nothing throws but the construction of arguments, which is the caller's.
@@ -112,4 +112,4 @@ TEST(Host, NothingIsInvented) {
 }
 
 }  // namespace
-}  // namespace gn::host
+}  // namespace gn::host::host_test

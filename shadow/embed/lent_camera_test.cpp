@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn::embed {
+namespace gn::embed::lent_camera_test {
 namespace {
 
 const Box bounds_ws{vec3(-20), vec3(20)};
@@ -95,4 +95,4 @@ TEST(LentCamera, WhatIsNoCameraIsASentence) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::lent_camera_test

@@ -6,7 +6,7 @@
 #include "tests/lent_renderer.h"
 #include "tests/vulkan_calls.h"
 
-namespace gn::embed {
+namespace gn::embed::lost_test {
 namespace {
 
 using test::device;
@@ -171,4 +171,4 @@ INSTANTIATE_TEST_SUITE_P(Calls, Lost, testing::ValuesIn(test::calls_that_can_fai
                          [](const auto& test) { return test.param.substr(2); });
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::lost_test

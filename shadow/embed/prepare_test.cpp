@@ -7,7 +7,7 @@
 
 #include <chrono>
 
-namespace gn::embed {
+namespace gn::embed::prepare_test {
 namespace {
 
 using test::run;
@@ -106,4 +106,4 @@ TEST(EmbedPrepare, WhatIsAskedForLastCounts) {
 }
 
 }  // namespace
-}  // namespace gn::embed
+}  // namespace gn::embed::prepare_test

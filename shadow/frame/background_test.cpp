@@ -10,7 +10,7 @@
 #include <chrono>
 #include <thread>
 
-namespace gn {
+namespace gn::background_test {
 namespace {
 
 constexpr uint width = 64, height = 48;
@@ -126,4 +126,4 @@ TEST(BackgroundPipelines, FailInASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::background_test

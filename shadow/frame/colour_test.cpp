@@ -5,7 +5,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::colour_test {
 namespace {
 
 constexpr uint side = 128;
@@ -206,4 +206,4 @@ TEST(Colour, TheTruthWithOneChannelLetsGlassBlockNothing) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::colour_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::frame_test {
 namespace {
 
 FrameResult frame_of(const Scene& scene, const Recipe& recipe) {
@@ -122,4 +122,4 @@ TEST(Frame, VisibilityPartsRunInTheOrderOfTheList) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::frame_test

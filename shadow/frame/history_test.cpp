@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::history_test {
 namespace {
 
 const TextureDesc desc{.name = "kept",
@@ -65,4 +65,4 @@ TEST(History, ValuesAreFoundOnceTheirFrameCompleted) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::history_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::recorded_test {
 namespace {
 
 constexpr uint width = 64, height = 48;
@@ -169,4 +169,4 @@ TEST(RecordedFrames, RefuseInASentenceWhatAHostDoesNotLend) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::recorded_test

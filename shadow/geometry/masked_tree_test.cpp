@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace gn {
+namespace gn::masked_tree_test {
 namespace {
 
 TEST(MaskedTree, holds_each_triangle_once_in_every_box_that_leads_to_it) {
@@ -49,4 +49,4 @@ TEST(MaskedTree, holds_each_triangle_once_in_every_box_that_leads_to_it) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::masked_tree_test

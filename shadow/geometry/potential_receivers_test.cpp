@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::potential_receivers_test {
 namespace {
 
 double volume_of(const ConvexBody& body) {
@@ -144,4 +144,4 @@ TEST(FitPerspective, RefusesABodyAroundTheLight) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::potential_receivers_test

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <map>
 
-namespace gn {
+namespace gn::silhouettes_test {
 namespace {
 
 using namespace by_hand;
@@ -169,4 +169,4 @@ TEST(Silhouettes, OfModels) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::silhouettes_test

@@ -3,7 +3,7 @@
 #include "tests/lookup_by_hand.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::resolve_test {
 namespace {
 
 /// What a frame of the stack says whose lookup answers with the given expression.
@@ -115,4 +115,4 @@ TEST(ResolveRendered, IsSilentAboutRounding) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::resolve_test

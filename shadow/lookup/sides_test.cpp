@@ -6,7 +6,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::sides_test {
 namespace {
 
 constexpr uint side = 128;
@@ -185,4 +185,4 @@ TEST(LookupSides, WhatNobodyTellsIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sides_test

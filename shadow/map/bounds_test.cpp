@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace gn {
+namespace gn::bounds_test {
 namespace {
 
 /// The kernel is a box of five texels, read bilinearly, and the receiver one depth under the whole kernel.
@@ -88,4 +88,4 @@ TEST(BoundsRendered, FourMomentsAndFourComponentsBoundMoreTightlyAtAnySample) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bounds_test

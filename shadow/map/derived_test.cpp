@@ -15,7 +15,7 @@
 #include <random>
 #include <tuple>
 
-namespace gn {
+namespace gn::derived_test {
 namespace {
 
 /// A map of random depths, two layers.
@@ -367,4 +367,4 @@ TEST(Derived, ARectanglesTexelsDecideAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::derived_test

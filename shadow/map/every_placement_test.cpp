@@ -4,7 +4,7 @@
 #include "scenes/analytic.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::every_placement_test {
 namespace {
 
 /// Mean visibility of the ground well inside the box's shadow; the rims' kernels stay outside of it.
@@ -56,4 +56,4 @@ TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::every_placement_test

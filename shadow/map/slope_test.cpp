@@ -2,7 +2,7 @@
 // Depth is clamped before the near plane of a view, and what is clamped has no slope.
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::slope_test {
 namespace {
 
 void add_quad(Scene& scene, const std::array<vec3, 4>& corners) {
@@ -45,4 +45,4 @@ TEST(Slope, OfAClampedCasterIsNone) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::slope_test

@@ -50,7 +50,7 @@ void main() {
 }
 )";
 
-struct Push {
+struct StepPush {
     int layer, stride;
 };
 
@@ -73,7 +73,7 @@ void add_layers(FrameGraph& graph, TextureHandle source, TextureHandle target, c
             [source, &shader, layer, stride](Recorder& r) {
                 r.bind(shader);
                 r.set("source", source, nearest(), one_layer(layer));
-                r.push_value(Push{0, stride});
+                r.push_value(StepPush{0, stride});
                 r.draw(3);
             });
     }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::flicker_test {
 namespace {
 
 /// A wall at distance 1 m, seen straight on: a pixel is 1 cm wide, and the camera stands `shift` pixels to the right.
@@ -127,4 +127,4 @@ TEST(Flicker, LeavesOutTheEdgesOfTheReference) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::flicker_test

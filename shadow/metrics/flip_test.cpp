@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-namespace gn {
+namespace gn::flip_test {
 namespace {
 
 constexpr float default_ppd = 67.0206F;
@@ -205,4 +205,4 @@ TEST(Flip, SeparableFiltersGiveTheDefinition) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::flip_test

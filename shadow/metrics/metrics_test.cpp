@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace gn {
+namespace gn::metrics_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -239,4 +239,4 @@ TEST(Luma, HandComputed) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::metrics_test

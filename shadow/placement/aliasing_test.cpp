@@ -16,7 +16,7 @@
 #include <fstream>
 #include <map>
 
-namespace gn {
+namespace gn::aliasing_test {
 namespace {
 
 constexpr double near = 1;
@@ -249,4 +249,4 @@ TEST(PerspectiveAliasing, WritesItsCurves) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::aliasing_test

@@ -6,7 +6,7 @@
 #include "shadow/frame/history.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::gpu_views_test {
 namespace {
 
 constexpr std::uint32_t most_views = 9;  // more than any placement here has
@@ -212,4 +212,4 @@ TEST(GpuViewsRendered, TellTheNextFrameHowManyLayersTheyNeed) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gpu_views_test

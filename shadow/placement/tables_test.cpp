@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-namespace gn {
+namespace gn::tables_test {
 namespace {
 
 const Part* shuffled_part = nullptr;
@@ -108,4 +108,4 @@ TEST(PlacementTables, AViewIsFoundThroughATableAndATexture) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::tables_test

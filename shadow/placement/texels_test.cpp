@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace gn {
+namespace gn::texels_test {
 namespace {
 
 constexpr std::array distances{2.5, 5.0, 10.0, 25.0, 50.0, 100.0, 250.0, 450.0};
@@ -266,4 +266,4 @@ TEST(TexelsAlongTheView, WritesItsCurves) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::texels_test

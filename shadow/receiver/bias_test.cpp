@@ -7,7 +7,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::bias_test {
 namespace {
 
 constexpr GnBias no_bias{.constant = 0, .slope = 0, .normal = 0, .receiver_plane = 0, .cone = 0};
@@ -314,4 +314,4 @@ TEST(DefaultBias, ABiasThickerThanTheBoxBringsTheGap) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bias_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::map_access_test {
 namespace {
 
 LightViews place_crossing(const FrameInput& input, const Recipe& recipe) {
@@ -41,4 +41,4 @@ TEST(MapAccess, WhatCrossesNothingReadsWhatItReadBefore) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::map_access_test

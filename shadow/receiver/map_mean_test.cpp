@@ -9,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-namespace gn {
+namespace gn::map_mean_test {
 namespace {
 
 constexpr int side = 64;
@@ -159,4 +159,4 @@ TEST(MapMeanRendered, NothingOfTheOtherViewsOfALayerIsRead) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::map_mean_test

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::octahedral_test {
 namespace {
 
 TEST(Octahedral, ADirectionComesBackAlsoFromThirtyTwoBits) {
@@ -35,4 +35,4 @@ TEST(Octahedral, HalvesLieWhereThePaperDrawsThem) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::octahedral_test

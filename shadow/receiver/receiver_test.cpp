@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::receiver_test {
 namespace {
 
 glsl::GnReceiver receiver_at(vec3 p_ws, vec3 n_ws) {
@@ -152,4 +152,4 @@ TEST(Projection, ReceiverBehindTheEyeIsOutside) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::receiver_test

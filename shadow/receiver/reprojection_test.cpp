@@ -12,7 +12,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace gn {
+namespace gn::reprojection_test {
 namespace {
 
 constexpr uint width = 160, height = 120;
@@ -206,4 +206,4 @@ TEST(Reprojection, ARendererMayTellWhereItsCameraWas) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::reprojection_test

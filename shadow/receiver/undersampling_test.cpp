@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace gn {
+namespace gn::undersampling_test {
 namespace {
 
 TEST(Undersampling, IsTheLargerSingularValueOfPixelsOverTexels) {
@@ -154,4 +154,4 @@ TEST(Undersampling, OfEveryViewSampleIsOneOverItsTexelsPerPixel) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::undersampling_test

@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-namespace gn {
+namespace gn::recipe_test {
 namespace {
 
 /// Every part stands in the text; the failure prints both.
@@ -484,4 +484,4 @@ TEST(Recipe, EveryKindOfLightHasOnePlacementThatStandsIn) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::recipe_test

@@ -2,7 +2,7 @@
 // Cameras whose rays run side by side, and how near a camera's picture begins.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::camera_test {
 namespace {
 
 using namespace testing_scene;
@@ -150,4 +150,4 @@ TEST(Camera, ARangeThatCannotBeIsChosenForAllThatIsSeen) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::camera_test

@@ -4,7 +4,7 @@
 
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::casting_test {
 namespace {
 
 /// A glowing box between two corners, its lid left off where `open`, and a lamp; all scaled about zero.
@@ -83,4 +83,4 @@ TEST(Glass, IsWhatLetsLightThrough) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::casting_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::curve_test {
 namespace {
 
 void expect_near(dvec3 found, dvec3 wanted, double seconds) {
@@ -62,4 +62,4 @@ TEST(Curve, RotationsGoTheShorterWayAtAnEvenRate) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::curve_test

@@ -2,7 +2,7 @@
 // Files may say what light comes from everywhere.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::environment_test {
 namespace {
 
 using namespace testing_scene;
@@ -103,4 +103,4 @@ TEST(EnvironmentFile, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::environment_test

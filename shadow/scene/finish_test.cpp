@@ -3,7 +3,7 @@
 #include "shadow/scene/model.h"
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::finish_test {
 namespace {
 
 using namespace testing_scene;
@@ -383,4 +383,4 @@ TEST(LoadScene, FormatsThroughAssimp) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::finish_test

@@ -5,7 +5,7 @@
 #include "shadow/scene/model.h"
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::ground_test {
 namespace {
 
 using namespace testing_scene;
@@ -156,4 +156,4 @@ TEST(Camera, AShiftMovesThePictureByThatMuchOfClipSpace) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::ground_test

@@ -8,7 +8,7 @@
 
 #include <numeric>
 
-namespace gn {
+namespace gn::light_samples_test {
 namespace {
 
 GnLight light_of(uint kind) {
@@ -131,4 +131,4 @@ TEST(LightSamples, PixelsOfASquareShareThePointsOut) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::light_samples_test

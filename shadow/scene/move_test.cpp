@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace gn {
+namespace gn::move_test {
 namespace {
 
 /// Two triangles, each an object with vertices of its own.
@@ -82,4 +82,4 @@ TEST(Move, RefusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::move_test

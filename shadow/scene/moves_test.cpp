@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::moves_test {
 namespace {
 
 Box box_at(float x) {
@@ -70,4 +70,4 @@ TEST(Moves, EmptyBoxesTouchNothing) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::moves_test

@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::point_emission_test {
 namespace {
 
 GnLight panel(float right = 1) {
@@ -91,4 +91,4 @@ TEST(PointEmission, APointIsOfTheColourOfThePictureAroundIt) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::point_emission_test

@@ -3,7 +3,7 @@
 
 #include "tests/direct_scenes.h"
 
-namespace gn {
+namespace gn::cookie_test {
 namespace {
 
 using namespace by_hand;
@@ -120,4 +120,4 @@ TEST(Cookie, colours_the_light_and_leaves_V_alone) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::cookie_test

@@ -3,7 +3,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::environment_test {
 namespace {
 
 /// The ground seen from above under the open sky, with nothing of its sun.
@@ -49,4 +49,4 @@ TEST(Environment, NoPartServesItsShadowYet) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::environment_test

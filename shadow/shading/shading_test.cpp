@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::shading_test {
 namespace {
 
 using namespace gn::glsl;
@@ -129,4 +129,4 @@ TEST(Tonemap, IsLinearBelowItsKneeAndTheLogAverageBecomesMiddleGrey) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::shading_test

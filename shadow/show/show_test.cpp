@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-namespace gn {
+namespace gn::show_test {
 namespace {
 
 using test::device;
@@ -315,4 +315,4 @@ TEST(Show, EveryPlacementHasItsPictures) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::show_test

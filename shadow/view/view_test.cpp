@@ -2,7 +2,7 @@
 #include "shadow/view/surface.glsl"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::view_test {
 namespace {
 
 /// Each sample must lie in its triangle's plane to the rounding of its three coordinates, half a unit in the last place each, or of
@@ -67,4 +67,4 @@ TEST(ViewSamples, NormalsFaceTheCameraAndAreUnit) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::view_test

@@ -11,7 +11,7 @@
 namespace gn {
 namespace {
 
-constexpr const char* main_text = R"(
+constexpr const char* combine_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -43,7 +43,8 @@ Visibility add_combined(const FrameInput& input, const Visibility& first, const 
                            .value(channels_of(input.graph, first.image))
                            .value(channels_of(input.graph, second.image));
     const auto shader = compute_once(input.prepared, "combine", key, [&] {
-        return define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() + main_text;
+        return define_of(combine) + reader("GN_FIRST", first) + reader("GN_SECOND", second) + inputs.text() +
+               combine_text;
     });
     add_pixel_pass(input.graph, "combine", inputs, shader, input.samples.width, input.samples.height);
     return result;

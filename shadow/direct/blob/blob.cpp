@@ -11,7 +11,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::blob {
 namespace {
 
 constexpr const char* text = R"(
@@ -83,10 +83,12 @@ Visibility add_blobs(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::blob
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_blob() {
+    using namespace blob;
     static const Part part = [] {
         Part p;
         p.id = "blob";
@@ -109,5 +111,4 @@ const Part& direct_blob() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -9,6 +9,7 @@ namespace gn {
 namespace parts {
 const Part& direct_blob();
 }
+namespace blob_test {
 namespace {
 
 using namespace by_hand;
@@ -66,4 +67,5 @@ TEST(BlobRendered, darkness_on_the_ground_is_the_area_of_the_shadow) {
 }
 
 }  // namespace
+}  // namespace blob_test
 }  // namespace gn

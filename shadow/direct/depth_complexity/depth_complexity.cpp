@@ -27,7 +27,7 @@
 #include <array>
 #include <cstring>
 
-namespace gn {
+namespace gn::parts::depth_complexity {
 namespace {
 
 constexpr const char* part_include = "#include \"shadow/direct/depth_complexity/depth_complexity.glsl\"\n";
@@ -290,10 +290,12 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::depth_complexity
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_depth_complexity() {
+    using namespace depth_complexity;
     static const Part part = [] {
         Part p;
         p.id = "depth-complexity";
@@ -329,5 +331,4 @@ const Part& direct_depth_complexity() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -12,7 +12,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::depth_complexity_test {
 namespace {
 
 using namespace by_hand;
@@ -387,4 +387,4 @@ TEST(DepthComplexityRendered, CountersThatMayWrapAreSaid) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::depth_complexity_test

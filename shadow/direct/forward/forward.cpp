@@ -14,7 +14,7 @@
 #include "shadow/placement/place.h"
 #include "shadow/scene/casting.h"
 
-namespace gn {
+namespace gn::parts::forward {
 namespace {
 
 Visibility add_forward(const FrameInput& input, const Recipe& recipe) {
@@ -55,10 +55,12 @@ std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe
 }
 
 }  // namespace
+}  // namespace gn::parts::forward
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_forward() {
+    using namespace forward;
     static const Part part = [] {
         Part p;
         p.id = "forward";
@@ -85,5 +87,4 @@ const Part& direct_forward() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

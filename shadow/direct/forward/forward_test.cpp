@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::forward_test {
 namespace {
 
 using namespace gn::glsl;
@@ -99,4 +99,4 @@ TEST(ForwardRendered, LightsAnUnoccludedPlaneWhole) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::forward_test

@@ -15,7 +15,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::hybrid_volumes {
 namespace {
 
 constexpr const char* seen_text = R"(
@@ -94,10 +94,12 @@ Visibility add_hybrid_volumes(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::hybrid_volumes
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_hybrid_volumes() {
+    using namespace hybrid_volumes;
     static const Part part = [] {
         Part p;
         p.id = "hybrid-volumes";
@@ -123,5 +125,4 @@ const Part& direct_hybrid_volumes() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

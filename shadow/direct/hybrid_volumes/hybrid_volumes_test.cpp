@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::hybrid_volumes_test {
 namespace {
 
 std::vector<float> visibility(const Scene& scene, const std::string& recipe) {
@@ -57,4 +57,4 @@ TEST(HybridVolumes, a_wider_band_finds_what_a_narrow_one_misses) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::hybrid_volumes_test

@@ -15,7 +15,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::irregular_z {
 namespace {
 
 constexpr const char* resolve_text = R"(
@@ -64,10 +64,12 @@ std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& re
 }
 
 }  // namespace
+}  // namespace gn::parts::irregular_z
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_irregular_z() {
+    using namespace irregular_z;
     static const Part part = [] {
         Part p;
         p.id = "irregular-z";
@@ -94,5 +96,4 @@ const Part& direct_irregular_z() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <random>
 
-namespace gn {
+namespace gn::irregular_z_test {
 namespace {
 
 using namespace by_hand;
@@ -236,4 +236,4 @@ INSTANTIATE_TEST_SUITE_P(Models, IrregularZOfModels, testing::ValuesIn(models),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::irregular_z_test

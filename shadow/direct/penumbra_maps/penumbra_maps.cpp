@@ -13,7 +13,7 @@
 #include "shadow/geometry/caster_geometry.h"
 #include "shadow/placement/place.h"
 
-namespace gn {
+namespace gn::parts::penumbra_maps {
 namespace {
 
 constexpr const char* penumbra_text = R"(
@@ -54,10 +54,12 @@ Visibility add_penumbra_maps(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::penumbra_maps
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_penumbra_maps() {
+    using namespace penumbra_maps;
     static const Part part = [] {
         Part p;
         p.id = "penumbra-maps";
@@ -77,5 +79,4 @@ const Part& direct_penumbra_maps() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::penumbra_maps_test {
 namespace {
 
 TEST(PenumbraMapsLaws, intensity_is_the_cones_depth_behind_the_vertex_over_the_surfaces) {
@@ -41,4 +41,4 @@ TEST(PenumbraMapsRendered, the_half_planes_umbra_is_its_hard_shadow_and_light_ri
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::penumbra_maps_test

@@ -7,7 +7,7 @@
 #include "shadow/geometry/flattened.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::planar {
 namespace {
 
 Visibility add_planar(const FrameInput& input, const Recipe& recipe) {
@@ -17,10 +17,12 @@ Visibility add_planar(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::planar
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_planar() {
+    using namespace planar;
     static const Part part = [] {
         Part p;
         p.id = "planar";
@@ -45,5 +47,4 @@ const Part& direct_planar() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

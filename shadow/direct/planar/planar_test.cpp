@@ -10,6 +10,7 @@ namespace gn {
 namespace parts {
 const Part& direct_planar();
 }
+namespace planar_test {
 namespace {
 
 using namespace by_hand;
@@ -200,4 +201,5 @@ TEST(PlanarMasked, holes_in_a_caster_are_holes_in_its_shadow) {
 }
 
 }  // namespace
+}  // namespace planar_test
 }  // namespace gn

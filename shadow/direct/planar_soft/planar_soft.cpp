@@ -9,7 +9,7 @@
 
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::planar_soft {
 namespace {
 
 Visibility add_planar_soft(const FrameInput& input, const Recipe& recipe) {
@@ -20,10 +20,12 @@ Visibility add_planar_soft(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::planar_soft
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_planar_soft() {
+    using namespace planar_soft;
     static const Part part = [] {
         Part p;
         p.id = "planar-soft";
@@ -57,5 +59,4 @@ const Part& direct_planar_soft() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -11,6 +11,7 @@ namespace parts {
 const Part& direct_planar();
 const Part& direct_planar_soft();
 }  // namespace parts
+namespace planar_soft_test {
 namespace {
 
 using namespace by_hand;
@@ -112,4 +113,5 @@ TEST(PlanarSoftRendered, one_caster_of_one_height_has_the_right_drop_shadow) {
 }
 
 }  // namespace
+}  // namespace planar_soft_test
 }  // namespace gn

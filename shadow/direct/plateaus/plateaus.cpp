@@ -12,7 +12,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::plateaus {
 namespace {
 
 constexpr const char* vertex_text = R"(
@@ -130,10 +130,12 @@ Visibility add_plateaus(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::plateaus
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_plateaus() {
+    using namespace plateaus;
     static const Part part = [] {
         Part p;
         p.id = "plateaus";
@@ -158,5 +160,4 @@ const Part& direct_plateaus() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

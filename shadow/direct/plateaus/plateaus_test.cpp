@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::plateaus_test {
 namespace {
 
 TEST(PlateausLaws, light_rises_from_the_edge_to_its_width) {
@@ -56,4 +56,4 @@ TEST(PlateausRendered, the_half_planes_umbra_is_its_hard_shadow_and_light_rises_
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::plateaus_test

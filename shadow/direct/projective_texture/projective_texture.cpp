@@ -20,7 +20,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::parts::projective_texture {
 namespace {
 
 constexpr const char* text = R"(
@@ -156,10 +156,12 @@ Visibility add_projective_texture(const FrameInput& input, const Recipe& recipe)
 }
 
 }  // namespace
+}  // namespace gn::parts::projective_texture
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_projective_texture() {
+    using namespace projective_texture;
     static const Part part = [] {
         Part p;
         p.id = "projective-texture";
@@ -186,5 +188,4 @@ const Part& direct_projective_texture() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -10,6 +10,7 @@ namespace gn {
 namespace parts {
 const Part& direct_projective_texture();
 }
+namespace projective_texture_test {
 namespace {
 
 using namespace by_hand;
@@ -64,4 +65,5 @@ TEST(ProjectiveTextureRendered, scenes_of_receivers_alone_are_refused) {
 }
 
 }  // namespace
+}  // namespace projective_texture_test
 }  // namespace gn

@@ -7,7 +7,7 @@
 
 #include "shadow/geometry/edge_regions.h"
 
-namespace gn {
+namespace gn::parts::single_sample {
 namespace {
 
 Visibility add_single_sample(const FrameInput& input, const Recipe& recipe) {
@@ -39,10 +39,12 @@ Visibility add_single_sample(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::single_sample
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_single_sample() {
+    using namespace single_sample;
     static const Part part = [] {
         Part p;
         p.id = "single-sample";
@@ -67,5 +69,4 @@ const Part& direct_single_sample() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

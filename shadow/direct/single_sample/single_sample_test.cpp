@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace gn {
+namespace gn::single_sample_test {
 namespace {
 
 TEST(SingleSampleLaws, both_profiles_are_nearly_the_discs) {
@@ -46,4 +46,4 @@ TEST(SingleSampleRendered, the_half_planes_penumbra_lies_wholly_outside_its_hard
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::single_sample_test

@@ -12,7 +12,7 @@
 #include "shadow/frame/map_memory.h"
 #include "shadow/placement/place.h"
 
-namespace gn {
+namespace gn::parts::smoothies {
 namespace {
 
 // [CD03] section 3.3: the darkest fin counts, and the nearest edge of those that darken anything. An edge may stand before the near plane.
@@ -59,10 +59,12 @@ Visibility add_smoothies(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::smoothies
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_smoothies() {
+    using namespace smoothies;
     static const Part part = [] {
         Part p;
         p.id = "smoothies";
@@ -85,5 +87,4 @@ const Part& direct_smoothies() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

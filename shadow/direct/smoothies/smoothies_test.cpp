@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::smoothies_test {
 namespace {
 
 TEST(SmoothiesLaws, light_rises_over_parkers_ratio_of_the_fin) {
@@ -46,4 +46,4 @@ TEST(SmoothiesRendered, the_half_planes_umbra_is_its_hard_shadow_and_light_rises
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::smoothies_test

@@ -20,7 +20,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::soft_irregular {
 namespace {
 
 constexpr const char* includes_text = R"(
@@ -148,10 +148,12 @@ std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& re
 }
 
 }  // namespace
+}  // namespace gn::parts::soft_irregular
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_soft_irregular() {
+    using namespace soft_irregular;
     static const Part part = [] {
         Part p;
         p.id = "soft-irregular";
@@ -181,5 +183,4 @@ const Part& direct_soft_irregular() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::soft_irregular_test {
 namespace {
 
 using namespace by_hand;
@@ -144,4 +144,4 @@ TEST(SoftIrregularRendered, OuterPenumbraeLeaveTheHardShadowDark) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::soft_irregular_test

@@ -14,7 +14,7 @@
 #include "shadow/geometry/edge_regions.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::soft_volumes {
 namespace {
 
 constexpr const char* exact_text = R"(
@@ -128,10 +128,12 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::soft_volumes
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_soft_volumes() {
+    using namespace soft_volumes;
     static const Part part = [] {
         Part p;
         p.id = "soft-volumes";
@@ -167,5 +169,4 @@ const Part& direct_soft_volumes() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::soft_volumes_test {
 namespace {
 
 using namespace glsl;
@@ -210,4 +210,4 @@ TEST(SoftVolumesRendered, one_box_for_four_regions_is_refused) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::soft_volumes_test

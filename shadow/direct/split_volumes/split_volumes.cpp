@@ -12,7 +12,7 @@
 #include "shadow/receiver/sample_pass.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::split_volumes {
 namespace {
 
 constexpr const char* tile_text = R"(
@@ -97,10 +97,12 @@ Visibility add_split_volumes(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::split_volumes
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_split_volumes() {
+    using namespace split_volumes;
     static const Part part = [] {
         Part p;
         p.id = "split-volumes";
@@ -128,5 +130,4 @@ const Part& direct_split_volumes() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

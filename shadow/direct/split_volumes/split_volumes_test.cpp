@@ -9,6 +9,7 @@ namespace parts {
 const Part& direct_volumes();
 const Part& direct_split_volumes();
 }  // namespace parts
+namespace split_volumes_test {
 namespace {
 
 using namespace by_hand;
@@ -53,4 +54,5 @@ TEST(SplitVolumes, whichever_side_is_counted_the_picture_is_that_of_volumes) {
 }
 
 }  // namespace
+}  // namespace split_volumes_test
 }  // namespace gn

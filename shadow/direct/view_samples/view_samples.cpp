@@ -25,7 +25,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::parts::view_samples {
 namespace {
 
 constexpr int most_points = 1024;  ///< of all patterns
@@ -238,10 +238,12 @@ std::string refuses(const Scene& /*scene*/, const Light& light, const Recipe& re
 }
 
 }  // namespace
+}  // namespace gn::parts::view_samples
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_view_samples() {
+    using namespace view_samples;
     static const Part part = [] {
         Part p;
         p.id = "view-samples";
@@ -285,5 +287,4 @@ const Part& direct_view_samples() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -4,7 +4,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/panels.h"
 
-namespace gn {
+namespace gn::view_samples_pictures_test {
 namespace {
 
 using namespace by_hand;
@@ -86,4 +86,4 @@ TEST(ViewSamplesPictures, ComeNearTheTruthOfThePicture) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::view_samples_pictures_test

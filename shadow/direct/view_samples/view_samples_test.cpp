@@ -9,7 +9,7 @@
 #include <bit>
 #include <random>
 
-namespace gn {
+namespace gn::view_samples_test {
 namespace {
 
 using namespace by_hand;
@@ -411,4 +411,4 @@ TEST(ViewSamplesRendered, WhatCannotBeIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::view_samples_test

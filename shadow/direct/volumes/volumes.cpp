@@ -13,7 +13,7 @@
 #include "shadow/scene/casting.h"
 #include "shadow/scene/simplifier.h"
 
-namespace gn {
+namespace gn::parts::volumes {
 namespace {
 
 VolumeOptions options_of(const GnVolumesParams& params) {
@@ -74,10 +74,12 @@ std::string refuses(const Scene& /*scene*/, const Light& /*light*/, const Recipe
 }
 
 }  // namespace
+}  // namespace gn::parts::volumes
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_volumes() {
+    using namespace volumes;
     static const Part part = [] {
         Part p;
         p.id = "volumes";
@@ -126,5 +128,4 @@ const Part& direct_volumes() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -16,6 +16,7 @@ namespace gn {
 namespace parts {
 const Part& direct_volumes();
 }
+namespace volumes_culling_test {
 namespace {
 
 using namespace by_hand;
@@ -322,4 +323,5 @@ TEST(VolumeProxies, cast_no_shadow_where_the_solid_casts_none) {
 }
 
 }  // namespace
+}  // namespace volumes_culling_test
 }  // namespace gn

@@ -14,6 +14,7 @@ namespace gn {
 namespace parts {
 const Part& direct_volumes();
 }
+namespace volumes_modes_test {
 namespace {
 
 using namespace by_hand;
@@ -218,4 +219,5 @@ TEST(VolumeModes, what_shades_the_near_rectangle_is_always_told) {
 }
 
 }  // namespace
+}  // namespace volumes_modes_test
 }  // namespace gn

@@ -13,6 +13,7 @@ namespace gn {
 namespace parts {
 const Part& direct_volumes();
 }
+namespace volumes_random_test {
 namespace {
 
 using namespace by_hand;
@@ -169,4 +170,5 @@ std::string kind_name(const testing::TestParamInfo<unsigned>& tested) {
 INSTANTIATE_TEST_SUITE_P(Kinds, VolumesRandom, testing::Range(0U, kinds), kind_name);
 
 }  // namespace
+}  // namespace volumes_random_test
 }  // namespace gn

@@ -15,6 +15,7 @@ namespace gn {
 namespace parts {
 const Part& direct_volumes();
 }
+namespace volumes_scenes_test {
 namespace {
 
 using namespace by_hand;
@@ -120,4 +121,5 @@ TEST(VolumesOfGeometry, have_one_list_of_edges_for_all_lights_and_frames) {
 }
 
 }  // namespace
+}  // namespace volumes_scenes_test
 }  // namespace gn

@@ -11,6 +11,7 @@ namespace gn {
 namespace parts {
 const Part& direct_volumes();
 }
+namespace volumes_test {
 namespace {
 
 using namespace by_hand;
@@ -476,4 +477,5 @@ TEST(VolumesAnalytic, built_in_scenes_with_points_for_lights_have_no_mismatch) {
 }
 
 }  // namespace
+}  // namespace volumes_test
 }  // namespace gn

@@ -7,7 +7,7 @@
 
 #include "shadow/geometry/edge_regions.h"
 
-namespace gn {
+namespace gn::parts::wedges {
 namespace {
 
 Visibility add_wedges(const FrameInput& input, const Recipe& recipe) {
@@ -36,10 +36,12 @@ Visibility add_wedges(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::wedges
 
-namespace parts {
+namespace gn::parts {
 
 const Part& direct_wedges() {
+    using namespace wedges;
     static const Part part = [] {
         Part p;
         p.id = "wedges";
@@ -65,5 +67,4 @@ const Part& direct_wedges() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

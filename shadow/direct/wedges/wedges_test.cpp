@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::wedges_test {
 namespace {
 
 using namespace by_hand;
@@ -67,4 +67,4 @@ TEST(WedgesRendered, the_half_plane_has_its_ramp) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::wedges_test

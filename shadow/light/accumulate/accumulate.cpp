@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::parts::accumulate {
 namespace {
 
 /// Of more points than this a light is not summed.
@@ -59,6 +59,9 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::accumulate
+
+namespace gn {
 
 int points_within(float error) {
     GN_CHECK(error > 0);
@@ -69,9 +72,12 @@ int points_within(float error) {
     return side * side;
 }
 
-namespace parts {
+}  // namespace gn
+
+namespace gn::parts {
 
 const Part& light_accumulate() {
+    using namespace accumulate;
     static const Part part = [] {
         Part p;
         p.id = "accumulate";
@@ -99,5 +105,4 @@ const Part& light_accumulate() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

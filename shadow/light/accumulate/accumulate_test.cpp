@@ -11,7 +11,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::accumulate_test {
 namespace {
 
 constexpr uint side = 192;
@@ -346,4 +346,4 @@ TEST(Accumulate, WhatCannotBeIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::accumulate_test

@@ -22,7 +22,7 @@
 #include <array>
 #include <cstring>
 
-namespace gn {
+namespace gn::parts::accumulate_adaptive {
 namespace {
 
 // The least and the greatest V of the four parts of a cell, one layer a level; after the fourth whoever sees them differ counts.
@@ -175,10 +175,12 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::accumulate_adaptive
 
-namespace parts {
+namespace gn::parts {
 
 const Part& light_accumulate_adaptive() {
+    using namespace accumulate_adaptive;
     static const Part part = [] {
         Part p;
         p.id = "accumulate-adaptive";
@@ -205,5 +207,4 @@ const Part& light_accumulate_adaptive() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

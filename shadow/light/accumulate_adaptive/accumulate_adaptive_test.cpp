@@ -7,7 +7,7 @@
 
 #include <set>
 
-namespace gn {
+namespace gn::accumulate_adaptive_test {
 namespace {
 
 constexpr uint width = 96, height = 72;
@@ -164,4 +164,4 @@ TEST(AccumulateAdaptive, TheErrorGrowsWithTheThreshold) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::accumulate_adaptive_test

@@ -15,7 +15,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::culled {
 namespace {
 
 using culled::Reach;
@@ -99,10 +99,12 @@ Visibility add_unless_culled(const FrameInput& input, const Recipe& recipe,
 }
 
 }  // namespace
+}  // namespace gn::culled
 
-namespace parts {
+namespace gn::parts {
 
 const Part& light_culled() {
+    using namespace gn::culled;
     static const Part part = [] {
         Part p;
         p.id = "culled";
@@ -122,5 +124,4 @@ const Part& light_culled() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

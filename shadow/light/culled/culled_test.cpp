@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::culled_test {
 namespace {
 
 TEST(Culled, IlluminanceFallsWithTheSquareOfTheDistance) {
@@ -108,4 +108,4 @@ TEST(Culled, FaintLightsShineWithoutAShadow) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::culled_test

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::parts::split {
 namespace {
 
 std::vector<GnLight> rectangles(const GnLight& light, int side) {
@@ -79,7 +79,7 @@ std::vector<GnLight> pieces_of(const GnLight& light, const GnSplitParams& params
     return light.kind == GN_LIGHT_POINT ? spheres(light) : discs(light);
 }
 
-std::vector<Light> split(const Light& light, const Recipe& recipe) {
+std::vector<Light> parts_of(const Light& light, const Recipe& recipe) {
     std::vector<Light> pieces;
     for (const GnLight& piece : pieces_of(light.shape, recipe.of<GnSplitParams>("split"))) {
         pieces.push_back({.name = light.name, .shape = piece, .spared = light.spared});
@@ -118,10 +118,12 @@ std::string remark(const Scene& scene, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::split
 
-namespace parts {
+namespace gn::parts {
 
 const Part& light_split() {
+    using namespace split;
     static const Part part = [] {
         Part p;
         p.id = "split";
@@ -145,7 +147,7 @@ const Part& light_split() {
         });
         p.params_type = "GnSplitParams";
         p.glsl = "shadow/light/split/split.glsl";
-        p.split = split;
+        p.split = parts_of;
         p.refuses = refuses;
         p.remark = remark;
         return p;
@@ -153,5 +155,4 @@ const Part& light_split() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::split_test {
 namespace {
 
 TEST(Split, PiecesTileTheRectangle) {
@@ -113,4 +113,4 @@ TEST(SplitRendered, PiecesSeeMoreThanTheWhole) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::split_test

@@ -22,7 +22,7 @@
 #include <cmath>
 #include <limits>
 
-namespace gn {
+namespace gn::parts::backprojection {
 namespace {
 
 /// A caster's distance matters up to the light itself. How far penumbrae reach is known of suns: what the scene's height
@@ -209,10 +209,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::backprojection
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_backprojection() {
+    using namespace backprojection;
     static const Part part = [] {
         Part p;
         p.id = "backprojection";
@@ -237,5 +239,4 @@ const Part& lookup_backprojection() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

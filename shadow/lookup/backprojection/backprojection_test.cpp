@@ -14,7 +14,7 @@
 #include <random>
 #include <set>
 
-namespace gn {
+namespace gn::backprojection_test {
 namespace {
 
 constexpr int rows = 32, columns = 32;
@@ -391,4 +391,4 @@ TEST(BackprojectionRendered, WithoutSizeTheShadowIsHard) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::backprojection_test

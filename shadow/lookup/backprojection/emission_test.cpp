@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::emission_test {
 namespace {
 
 /// Each of the 256 points lies in a cell of its own, and is asked there.
@@ -209,4 +209,4 @@ TEST(BackprojectionEmissionRendered, APanelLightsAsItsMeanDoes) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::emission_test

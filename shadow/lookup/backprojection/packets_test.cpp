@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::packets_test {
 namespace {
 
 /// The larger area that a packet searches holds nothing more that hides the light from any of its receivers.
@@ -35,4 +35,4 @@ TEST(BackprojectionPacketsRendered, WithABudgetTheyErrNoMore) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::packets_test

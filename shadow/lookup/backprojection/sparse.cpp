@@ -85,13 +85,13 @@ void main() {
 }
 )";
 
-struct Push {
+struct RoundPush {
     int stride, coarsest;
 };
 
 /// One pass over a lattice of the view's samples.
 void add_pass(const FrameInput& input, const char* name, ShaderInputs inputs, const char* text, const ViewSamples& few,
-              Push push) {
+              RoundPush push) {
     add_gbuffer(inputs, input.device, input.samples);
     inputs.constant("GnViewConstants", "view", input.samples.constants)
         .constant("GnLight", "whole", input.whole_light().shape);
@@ -139,7 +139,7 @@ Visibility add_sparse(const FrameInput& input, const Recipe& recipe, const Light
     const TextureHandle visibility = create_visibility(input.graph, input.samples);
     for (int level = levels; level >= 0; --level) {
         // Take together what is looked up of this lattice, and look it up.
-        const Push push{1 << level, level == levels ? 1 : 0};
+        const RoundPush push{1 << level, level == levels ? 1 : 0};
         const std::shared_ptr<ViewSamples> few = create_lattice(input, 1U << static_cast<unsigned>(level));
         ShaderInputs chosen;
         chosen.texture("sampler2D", "footprints", footprints);

@@ -8,7 +8,7 @@
 #include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::chs {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
@@ -36,10 +36,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::chs
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_chs() {
+    using namespace chs;
     static const Part part = [] {
         Part p;
         p.id = "chs";
@@ -56,5 +58,4 @@ const Part& lookup_chs() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::chs_test {
 namespace {
 
 using namespace gn::glsl;
@@ -81,4 +81,4 @@ TEST(ChsRendered, TexelsThatAnEdgeCrossesAreLookedInto) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::chs_test

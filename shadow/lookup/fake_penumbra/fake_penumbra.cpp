@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <array>
 
-namespace gn {
+namespace gn::parts::fake_penumbra {
 namespace {
 
 constexpr int most_radius = 128;
@@ -108,10 +108,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::fake_penumbra
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_fake_penumbra() {
+    using namespace fake_penumbra;
     static const Part part = [] {
         Part p;
         p.id = "fake-penumbra";
@@ -131,5 +133,4 @@ const Part& lookup_fake_penumbra() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

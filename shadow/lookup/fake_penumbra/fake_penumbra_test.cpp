@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::fake_penumbra_test {
 namespace {
 
 constexpr const char* kinds[] = {"half-plane", "half-plane:light=spot", "half-plane:light=point",
@@ -195,4 +195,4 @@ TEST(FakePenumbraRendered, AFloodLosesThePenumbraWhoseHardShadowIsOffScreen) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::fake_penumbra_test

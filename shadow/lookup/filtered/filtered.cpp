@@ -7,7 +7,7 @@
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::filtered {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light&, const Box&) {
@@ -21,10 +21,12 @@ Guard guard(const Recipe& recipe, const Light&, const Box&) {
 }
 
 }  // namespace
+}  // namespace gn::parts::filtered
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_filtered() {
+    using namespace filtered;
     static const Part part = [] {
         Part p;
         p.id = "filtered";
@@ -51,5 +53,4 @@ const Part& lookup_filtered() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

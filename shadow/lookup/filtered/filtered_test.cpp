@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gn {
+namespace gn::filtered_test {
 namespace {
 
 TEST(Filtered, PixelFootprintIsThePixelsShareOfTheMap) {
@@ -38,4 +38,4 @@ TEST(Filtered, PixelFootprintIsThePixelsShareOfTheMap) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::filtered_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/lookup_by_hand.h"
 
-namespace gn {
+namespace gn::hard_test {
 namespace {
 
 TEST(Hard, MismatchHalvesAsTheResolutionDoubles) {
@@ -40,4 +40,4 @@ TEST(Hard, ComparesWithTheTexelWhoseMiddleIsNearest) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::hard_test

@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace gn {
+namespace gn::parts::occlusion_textures {
 namespace {
 
 constexpr int least_slices = 4;
@@ -62,10 +62,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::occlusion_textures
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_occlusion_textures() {
+    using namespace occlusion_textures;
     static const Part part = [] {
         Part p;
         p.id = "occlusion-textures";
@@ -83,5 +85,4 @@ const Part& lookup_occlusion_textures() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::occlusion_textures_test {
 namespace {
 
 TEST(OcclusionTextures, ABottomBelongsToTheSliceAboveIt) {
@@ -184,4 +184,4 @@ TEST(OcclusionTexturesRendered, WithoutSizeTheShadowIsHard) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::occlusion_textures_test

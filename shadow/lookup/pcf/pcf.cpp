@@ -9,7 +9,7 @@
 #include "shadow/recipe/part.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::pcf {
 namespace {
 
 bool is_grid(const GnPcfParams& params) {
@@ -87,10 +87,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::pcf
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_pcf() {
+    using namespace pcf;
     static const Part part = [] {
         Part p;
         p.id = "pcf";
@@ -112,5 +114,4 @@ const Part& lookup_pcf() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -4,7 +4,7 @@
 #include "shadow/lookup/poisson.h"
 #include "tests/lookup_by_hand.h"
 
-namespace gn {
+namespace gn::pcf_test {
 namespace {
 
 using namespace gn::glsl;
@@ -386,4 +386,4 @@ TEST(PcfRendered, IdsNeedNoBiasOnAPlane) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::pcf_test

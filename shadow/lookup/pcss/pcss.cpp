@@ -9,7 +9,7 @@
 #include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::pcss {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
@@ -51,10 +51,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::pcss
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_pcss() {
+    using namespace pcss;
     static const Part part = [] {
         Part p;
         p.id = "pcss";
@@ -81,5 +83,4 @@ const Part& lookup_pcss() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gn {
+namespace gn::pcss_test {
 namespace {
 
 TEST(Pcss, SpreadIsThePenumbraOverTheLight) {
@@ -239,4 +239,4 @@ TEST(PcssRendered, EarlyOutsChangeNoSample) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::pcss_test

@@ -6,7 +6,7 @@
 // Stands on: shadow/map/silhouette_map (what a cell stores)
 #include "shadow/recipe/part.h"
 
-namespace gn {
+namespace gn::parts::silhouette {
 namespace {
 
 Guard guard(const Recipe&, const Light&, const Box&) {
@@ -14,10 +14,12 @@ Guard guard(const Recipe&, const Light&, const Box&) {
 }
 
 }  // namespace
+}  // namespace gn::parts::silhouette
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_silhouette() {
+    using namespace silhouette;
     static const Part part = [] {
         Part p;
         p.id = "silhouette";
@@ -32,5 +34,4 @@ const Part& lookup_silhouette() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::silhouette_test {
 namespace {
 
 using namespace gn::glsl;
@@ -130,4 +130,4 @@ TEST(SilhouetteRendered, NoWorseThanHardOnFineGeometryAndUnderEveryLight) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::silhouette_test

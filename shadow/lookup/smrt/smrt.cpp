@@ -8,7 +8,7 @@
 #include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::smrt {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
@@ -40,10 +40,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::smrt
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_smrt() {
+    using namespace smrt;
     static const Part part = [] {
         Part p;
         p.id = "smrt";
@@ -63,5 +65,4 @@ const Part& lookup_smrt() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

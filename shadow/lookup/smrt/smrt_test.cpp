@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::smrt_test {
 namespace {
 
 /// A ray from a tilted plane to a point of the light, against its definition: where it is, what of the plane lies on the centre's
@@ -173,4 +173,4 @@ TEST(SmrtRendered, WhatIsCoveredGoesOn) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::smrt_test

@@ -15,7 +15,7 @@
 
 #include <array>
 
-namespace gn {
+namespace gn::parts::sssm {
 namespace {
 
 // The neighbours along the light's other axis, and what they have read: take(texel, weight).
@@ -279,10 +279,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::sssm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_sssm() {
+    using namespace sssm;
     static const Part part = [] {
         Part p;
         p.id = "sssm";
@@ -303,5 +305,4 @@ const Part& lookup_sssm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::sssm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -144,4 +144,4 @@ TEST(SssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sssm_test

@@ -8,7 +8,7 @@
 #include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
-namespace gn {
+namespace gn::parts::vssm {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
@@ -16,10 +16,12 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
 }
 
 }  // namespace
+}  // namespace gn::parts::vssm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& lookup_vssm() {
+    using namespace vssm;
     static const Part part = [] {
         Part p;
         p.id = "vssm";
@@ -49,5 +51,4 @@ const Part& lookup_vssm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

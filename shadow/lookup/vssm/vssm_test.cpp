@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::vssm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -119,4 +119,4 @@ TEST(VssmRendered, ASlopeDoesNotShadeItself) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::vssm_test

@@ -7,7 +7,7 @@
 
 #include "shadow/map/prefilter.h"
 
-namespace gn {
+namespace gn::parts::convolution {
 namespace {
 
 /// Evaluates the basis functions of every texel of the depth map.
@@ -75,10 +75,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::convolution
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_convolution() {
+    using namespace convolution;
     static const Part part = [] {
         Part p;
         p.id = "convolution";
@@ -98,5 +100,4 @@ const Part& map_convolution() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-namespace gn {
+namespace gn::convolution_test {
 namespace {
 
 using namespace gn::glsl;
@@ -176,4 +176,4 @@ TEST(ConvolutionRendered, StaysInRangeAndFreeOfAcne) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::convolution_test

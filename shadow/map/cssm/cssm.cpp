@@ -8,7 +8,7 @@
 
 #include "shadow/map/prefilter.h"
 
-namespace gn {
+namespace gn::parts::cssm {
 namespace {
 
 /// Evaluates `groups` functions of four numbers of every texel of the depth map, and filters them.
@@ -82,10 +82,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::cssm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_cssm() {
+    using namespace cssm;
     static const Part part = [] {
         Part p;
         p.id = "cssm";
@@ -105,5 +107,4 @@ const Part& map_cssm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::cssm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -84,4 +84,4 @@ TEST(CssmRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::cssm_test

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::depth_test {
 namespace {
 
 /// One level square at height y over the origin, lit from (0, 10, 0).
@@ -78,4 +78,4 @@ TEST(Depth, AlphaTestedCastersAreCutOut) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::depth_test

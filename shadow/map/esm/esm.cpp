@@ -8,7 +8,7 @@
 #include "shadow/map/prefilter.h"
 #include "shadow/recipe/prepared.h"
 
-namespace gn {
+namespace gn::parts::esm {
 namespace {
 
 /// One texel a sample: a map of twice the side, the samples where they lie in their texel.
@@ -88,10 +88,12 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::esm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_esm() {
+    using namespace esm;
     static const Part part = [] {
         Part p;
         p.id = "esm";
@@ -128,5 +130,4 @@ const Part& map_esm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::esm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -155,4 +155,4 @@ TEST(EsmRendered, StaysInRangeAndFreeOfAcne) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::esm_test

@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace gn {
+namespace gn::parts::evsm {
 namespace {
 
 VkFormat format_of(const GnEvsmParams& params) {
@@ -103,10 +103,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::evsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_evsm() {
+    using namespace evsm;
     static const Part part = [] {
         Part p;
         p.id = "evsm";
@@ -128,5 +130,4 @@ const Part& map_evsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

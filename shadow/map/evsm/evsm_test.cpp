@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::evsm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -253,4 +253,4 @@ TEST(EvsmRendered, StaysInRangeAndFreeOfAcne) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::evsm_test

@@ -16,7 +16,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::parts::layered_attenuation {
 namespace {
 
 constexpr const char* part_include = "#include \"shadow/map/layered_attenuation/layered_attenuation.glsl\"\n";
@@ -227,10 +227,12 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::layered_attenuation
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_layered_attenuation() {
+    using namespace layered_attenuation;
     static const Part part = [] {
         Part p;
         p.id = "layered-attenuation";
@@ -259,5 +261,4 @@ const Part& map_layered_attenuation() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

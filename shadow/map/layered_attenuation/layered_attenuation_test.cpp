@@ -7,7 +7,7 @@
 #include "tests/direct_scenes.h"
 #include "tests/lent_points.h"
 
-namespace gn {
+namespace gn::layered_attenuation_test {
 namespace {
 
 using namespace gn::glsl;
@@ -166,4 +166,4 @@ TEST(LayeredAttenuation, WhatItTakesFromTheLightNobodyElseTakes) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::layered_attenuation_test

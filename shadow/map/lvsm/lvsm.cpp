@@ -10,7 +10,7 @@
 #include "shadow/map/lvsm/lvsm_passes.h"
 #include "shadow/map/prefilter.h"
 
-namespace gn {
+namespace gn::parts::lvsm {
 namespace {
 
 ShadowMap add_lvsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
@@ -72,10 +72,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::lvsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_lvsm() {
+    using namespace lvsm;
     static const Part part = [] {
         Part p;
         p.id = "lvsm";
@@ -97,5 +99,4 @@ const Part& map_lvsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -13,7 +13,7 @@ std::array<vec3, 1025> prefix;
 #define GN_LLOYD_BEFORE(i) prefix[static_cast<std::size_t>(i)]
 #include "shadow/map/lvsm/lloyd.glsl"
 
-namespace gn {
+namespace gn::lvsm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -306,4 +306,4 @@ TEST(LvsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::lvsm_test

@@ -6,7 +6,7 @@
 
 #include "shadow/map/prefilter.h"
 
-namespace gn {
+namespace gn::parts::msm {
 namespace {
 
 ShadowMap add_msm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
@@ -68,10 +68,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::msm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_msm() {
+    using namespace msm;
     static const Part part = [] {
         Part p;
         p.id = "msm";
@@ -93,5 +95,4 @@ const Part& map_msm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::msm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -164,4 +164,4 @@ TEST(MsmRendered, StaysInRangeAndFreeOfAcne) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::msm_test

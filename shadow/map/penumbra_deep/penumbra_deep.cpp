@@ -17,7 +17,7 @@
 
 #include <cstring>
 
-namespace gn {
+namespace gn::parts::penumbra_deep {
 namespace {
 
 // Every texel of every view of the centre.
@@ -144,10 +144,12 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::penumbra_deep
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_penumbra_deep() {
+    using namespace penumbra_deep;
     static const Part part = [] {
         Part p;
         p.id = "penumbra-deep";
@@ -176,5 +178,4 @@ const Part& map_penumbra_deep() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::penumbra_deep_test {
 namespace {
 
 using namespace gn::glsl;
@@ -140,4 +140,4 @@ TEST(PenumbraDeep, SpheresAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::penumbra_deep_test

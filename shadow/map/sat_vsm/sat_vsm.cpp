@@ -8,7 +8,7 @@
 #include "shadow/map/prefilter.h"
 #include "shadow/map/sums.h"
 
-namespace gn {
+namespace gn::parts::sat_vsm {
 namespace {
 
 ShadowMap add_sat_vsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
@@ -65,10 +65,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::parts::sat_vsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_sat_vsm() {
+    using namespace sat_vsm;
     static const Part part = [] {
         Part p;
         p.id = "sat-vsm";
@@ -89,5 +91,4 @@ const Part& map_sat_vsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

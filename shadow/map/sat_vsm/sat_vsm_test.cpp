@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-namespace gn {
+namespace gn::sat_vsm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -207,4 +207,4 @@ TEST(SatVsmRendered, StaysInRangeAndFreeOfAcne) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sat_vsm_test

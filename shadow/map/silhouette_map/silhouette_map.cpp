@@ -9,7 +9,7 @@
 #include "shadow/map/prefilter.h"
 #include "shadow/map/silhouette_map/silhouette_edges.h"
 
-namespace gn {
+namespace gn::parts::silhouette_map {
 namespace {
 
 constexpr const char* join_text = R"(
@@ -52,10 +52,12 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::silhouette_map
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_silhouette_map() {
+    using namespace silhouette_map;
     static const Part part = [] {
         Part p;
         p.id = "silhouette-map";
@@ -72,5 +74,4 @@ const Part& map_silhouette_map() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

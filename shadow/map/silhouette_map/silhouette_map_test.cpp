@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::silhouette_map_test {
 namespace {
 
 using namespace gn::glsl;
@@ -44,4 +44,4 @@ TEST(SilhouetteMap, EverySegmentThroughACellHasAPointOnItWithin) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::silhouette_map_test

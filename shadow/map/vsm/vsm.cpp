@@ -7,7 +7,7 @@
 #include "shadow/map/derived.h"
 #include "shadow/map/prefilter.h"
 
-namespace gn {
+namespace gn::parts::vsm {
 namespace {
 
 ShadowMap add_vsm(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
@@ -45,10 +45,12 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::vsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& map_vsm() {
+    using namespace vsm;
     static const Part part = [] {
         Part p;
         p.id = "vsm";
@@ -83,5 +85,4 @@ const Part& map_vsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

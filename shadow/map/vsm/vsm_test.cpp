@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::vsm_test {
 namespace {
 
 using namespace gn::glsl;
@@ -187,4 +187,4 @@ TEST(VsmRendered, StaysInRangeAndFreeOfAcneAtTheDefaults) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::vsm_test

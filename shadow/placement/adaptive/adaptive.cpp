@@ -21,7 +21,7 @@
 #include <bit>
 #include <cstring>
 
-namespace gn {
+namespace gn::adaptive {
 namespace {
 
 /// How the atlas is cut into tiles.
@@ -334,10 +334,12 @@ std::string remark(const Scene&, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::adaptive
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_adaptive() {
+    using namespace gn::adaptive;
     static const Part part = [] {
         Part p;
         p.id = "adaptive";
@@ -355,5 +357,4 @@ const Part& placement_adaptive() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

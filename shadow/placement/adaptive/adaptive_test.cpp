@@ -14,7 +14,7 @@
 #include <cstring>
 #include <set>
 
-namespace gn {
+namespace gn::adaptive_test {
 namespace {
 
 using test::device;
@@ -404,4 +404,4 @@ TEST_P(TilesKept, AreDrawnWhereACasterMovedAndNowhereElse) {
 INSTANTIATE_TEST_SUITE_P(AdaptiveRendered, TilesKept, testing::Values("asm", "tiled", "rmsm"));
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::adaptive_test

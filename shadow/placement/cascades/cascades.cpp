@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::cascades {
 namespace {
 
 using namespace cascades;
@@ -238,10 +238,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::cascades
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_cascades() {
+    using namespace gn::cascades;
     static const Part part = [] {
         Part p;
         p.id = "cascades";
@@ -261,5 +263,4 @@ const Part& placement_cascades() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

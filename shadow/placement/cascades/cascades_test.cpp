@@ -2,7 +2,7 @@
 // Where the view is split, which slice serves a receiver, what is culled and refused.
 #include "tests/cascade_frame.h"
 
-namespace gn {
+namespace gn::cascades_test {
 namespace {
 
 using namespace cascades;
@@ -189,4 +189,4 @@ TEST(CascadesRendered, RefusesToKeepWhatIsNotStable) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::cascades_test

@@ -3,7 +3,7 @@
 #include "tests/cascade_frame.h"
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::falloff_test {
 namespace {
 
 using namespace cascades;
@@ -157,4 +157,4 @@ TEST(CascadesRendered, RefusesFalloffThatNoMapCanHold) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::falloff_test

@@ -3,7 +3,7 @@
 #include "tests/cascade_frame.h"
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::far_test {
 namespace {
 
 using namespace cascades;
@@ -101,4 +101,4 @@ TEST(CascadesRendered, CutSlicesHoldEverySampleAndStandStill) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::far_test

@@ -4,7 +4,7 @@
 
 #include "shadow/placement/receiver_mask.h"
 
-namespace gn {
+namespace gn::mask_test {
 namespace {
 
 using namespace cascades;
@@ -154,4 +154,4 @@ TEST(CascadesRendered, RefusesToMaskWhatReachesFarther) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::mask_test

@@ -3,7 +3,7 @@
 #include "tests/cascade_frame.h"
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::picture_test {
 namespace {
 
 using namespace cascades;
@@ -144,4 +144,4 @@ TEST(CascadesRendered, NoSeamWhereCascadesMeet) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::picture_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::sdsm_test {
 namespace {
 
 using namespace cascades;
@@ -118,4 +118,4 @@ TEST(CascadesRendered, SampleDistributionHalvesTheWrongSamplesOfPracticalSplits)
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::sdsm_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::stable_test {
 namespace {
 
 using namespace cascades;
@@ -327,4 +327,4 @@ TEST(CascadesRendered, FarCascadesAreRedrawnAtTheirRateAndStillCoverTheirSlices)
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::stable_test

@@ -3,7 +3,7 @@
 #include "tests/cascade_frame.h"
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::warped_test {
 namespace {
 
 using namespace cascades;
@@ -107,4 +107,4 @@ TEST(CascadesWarped, IsRefusedWithAChoiceByProjection) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::warped_test

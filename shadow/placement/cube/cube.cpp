@@ -16,8 +16,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace gn {
-
+namespace gn::parts::cube {
 namespace {
 
 constexpr int faces = 6;
@@ -167,10 +166,12 @@ std::string remark_cube(const Scene& scene, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::cube
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_cube() {
+    using namespace cube;
     static const Part part = [] {
         Part p;
         p.id = "cube";
@@ -201,5 +202,4 @@ const Part& placement_cube() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

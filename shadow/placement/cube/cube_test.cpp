@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace gn {
+namespace gn::cube_test {
 namespace {
 
 Scene scene_around(vec3 light_ws) {
@@ -239,4 +239,4 @@ TEST(CubeEdges, NothingIsDarkenedWhereNothingCasts) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::cube_test

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::parts::faces {
 namespace {
 
 constexpr std::size_t faces = GN_FRUSTUM_FACES;
@@ -211,10 +211,12 @@ LightViews place_faces(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::faces
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_faces() {
+    using namespace faces;
     static const Part part = [] {
         Part p;
         p.id = "faces";
@@ -244,5 +246,4 @@ const Part& placement_faces() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

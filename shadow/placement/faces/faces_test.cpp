@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace gn {
+namespace gn::faces_test {
 namespace {
 
 constexpr double no_key = 1e29;
@@ -193,4 +193,4 @@ TEST(FacesRendered, NoAcneWithTheDefaultBias) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::faces_test

@@ -8,7 +8,7 @@
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
 
-namespace gn {
+namespace gn::parts::fit {
 namespace {
 
 LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
@@ -36,10 +36,12 @@ LightViews place_fit(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::fit
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_fit() {
+    using namespace fit;
     static const Part part = [] {
         Part p;
         p.id = "fit";
@@ -56,5 +58,4 @@ const Part& placement_fit() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -2,7 +2,7 @@
 
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::fit_test {
 namespace {
 
 /// The camera that the scene has, and one a step aside that is turned a little.
@@ -121,4 +121,4 @@ TEST(Fit, OneMapServesEverySpotOfVanSambeeksScenes) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::fit_test

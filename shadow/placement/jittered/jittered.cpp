@@ -15,7 +15,7 @@
 
 #include <array>
 
-namespace gn {
+namespace gn::parts::jittered {
 namespace {
 
 const Part& moved_of(const Recipe& recipe) {
@@ -60,10 +60,12 @@ std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::jittered
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_jittered() {
+    using namespace jittered;
     static const Part part = [] {
         Part p;
         p.id = "jittered";
@@ -86,5 +88,4 @@ const Part& placement_jittered() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::jittered_test {
 namespace {
 
 /// Of 64 places the farthest point of a texel has one within an eighth of its side or a little more.
@@ -71,4 +71,4 @@ TEST(Jittered, EveryViewMovesByTheJitterInTexels) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::jittered_test

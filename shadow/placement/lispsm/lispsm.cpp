@@ -8,7 +8,7 @@
 
 #include "shadow/placement/warp.h"
 
-namespace gn {
+namespace gn::parts::lispsm {
 namespace {
 
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
@@ -22,10 +22,12 @@ LightViews place_lispsm(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::lispsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_lispsm() {
+    using namespace lispsm;
     static const Part part = [] {
         Part p;
         p.id = "lispsm";
@@ -54,5 +56,4 @@ const Part& placement_lispsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

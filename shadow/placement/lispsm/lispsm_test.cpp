@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::lispsm_test {
 namespace {
 
 constexpr const char* plain = "hard,placement=fit,resolution=4096";
@@ -308,4 +308,4 @@ TEST_P(WarpedMap, CasterBeforeTheNearPlaneStillCasts) {
 INSTANTIATE_TEST_SUITE_P(Placements, WarpedMap, ::testing::Values("lispsm", "tsm", "psm"));
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::lispsm_test

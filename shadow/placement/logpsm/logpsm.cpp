@@ -8,7 +8,7 @@
 
 #include "shadow/placement/warp.h"
 
-namespace gn {
+namespace gn::parts::logpsm {
 namespace {
 
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
@@ -20,10 +20,12 @@ LightViews place_logpsm(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::logpsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_logpsm() {
+    using namespace logpsm;
     static const Part part = [] {
         Part p;
         p.id = "logpsm";
@@ -50,5 +52,4 @@ const Part& placement_logpsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::logpsm_test {
 namespace {
 
 constexpr const char* logarithmic = "hard,placement=logpsm,resolution=4096";
@@ -404,4 +404,4 @@ TEST(LogpsmRendered, WhatFollowsStraightEdgesIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::logpsm_test

@@ -9,7 +9,7 @@
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/recipe/guard.h"
 
-namespace gn {
+namespace gn::parts::paraboloid {
 namespace {
 
 /// The hemisphere around an axis, out to `extent` in stereographic coordinates; depth is the distance over far.
@@ -56,10 +56,12 @@ LightViews place_paraboloid(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::paraboloid
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_paraboloid() {
+    using namespace paraboloid;
     static const Part part = [] {
         Part p;
         p.id = "paraboloid";
@@ -76,5 +78,4 @@ const Part& placement_paraboloid() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

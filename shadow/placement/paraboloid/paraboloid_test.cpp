@@ -9,7 +9,7 @@
 
 #include <random>
 
-namespace gn {
+namespace gn::paraboloid_test {
 namespace {
 
 struct Directions {
@@ -230,4 +230,4 @@ TEST(Paraboloid, FacesOfCastersAreThoseOfACube) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::paraboloid_test

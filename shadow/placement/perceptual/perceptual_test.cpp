@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::perceptual_test {
 namespace {
 
 constexpr float c = 3.47F;
@@ -182,4 +182,4 @@ TEST(PerceptualRendered, PcssDrawsWhatItsSmallestFilterAsksFor) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::perceptual_test

@@ -8,7 +8,7 @@
 
 #include "shadow/placement/warp.h"
 
-namespace gn {
+namespace gn::parts::psm {
 namespace {
 
 GnLightView choose_view(const warp::Plane2& plane, const Recipe& recipe) {
@@ -23,10 +23,12 @@ LightViews place_psm(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::psm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_psm() {
+    using namespace psm;
     static const Part part = [] {
         Part p;
         p.id = "psm";
@@ -48,5 +50,4 @@ const Part& placement_psm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

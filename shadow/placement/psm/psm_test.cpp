@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::psm_test {
 namespace {
 
 double across(const GnLightView& view, double z) {
@@ -47,4 +47,4 @@ TEST(Psm, LightFromBehindMirrorsTheLightFromTheFront) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::psm_test

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::parts::single {
 namespace {
 
 constexpr float widest_cosine = 0.0872F;  // a cone of 85 degrees: beyond it one perspective view cannot hold the light
@@ -64,10 +64,12 @@ std::string remark_single(const Scene& scene, const Recipe&) {
 }
 
 }  // namespace
+}  // namespace gn::parts::single
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_single() {
+    using namespace single;
     static const Part part = [] {
         Part p;
         p.id = "single";
@@ -85,5 +87,4 @@ const Part& placement_single() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

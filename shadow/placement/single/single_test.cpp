@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::single_test {
 namespace {
 
 TEST(Single, SameAsFitOnASceneThatFillsTheView) {
@@ -27,4 +27,4 @@ TEST(Single, RefusesACornerLessSpotWithItsReason) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::single_test

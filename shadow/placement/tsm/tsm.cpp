@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::parts::tsm {
 namespace {
 
 /// 1/n for the centre of projection that maps the focus to `share` of the trapezoid's height [MT04, section 5.1].
@@ -32,10 +32,12 @@ LightViews place_tsm(const FrameInput& input, const Recipe& recipe) {
 }
 
 }  // namespace
+}  // namespace gn::parts::tsm
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_tsm() {
+    using namespace tsm;
     static const Part part = [] {
         Part p;
         p.id = "tsm";
@@ -63,5 +65,4 @@ const Part& placement_tsm() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/warp_scene.h"
 
-namespace gn {
+namespace gn::tsm_test {
 namespace {
 
 /// Martin and Tan: the focus region ends at the 80 % line, whatever its length.
@@ -40,4 +40,4 @@ TEST(Tsm, DefaultFocusIsTheGeometricMean) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::tsm_test

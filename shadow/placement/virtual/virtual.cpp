@@ -22,7 +22,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace gn {
+namespace gn::virtual_pages {
 namespace {
 
 using virtual_pages::Grid;
@@ -192,10 +192,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::virtual_pages
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_virtual() {
+    using namespace gn::virtual_pages;
     static const Part part = [] {
         Part p;
         p.id = "virtual";
@@ -214,5 +216,4 @@ const Part& placement_virtual() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

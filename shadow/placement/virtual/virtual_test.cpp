@@ -14,7 +14,7 @@
 #include <cmath>
 #include <set>
 
-namespace gn {
+namespace gn::virtual_test {
 namespace {
 
 constexpr uint width = 96, height = 64;
@@ -222,4 +222,4 @@ TEST(VirtualRendered, ServesEveryKindOfLight) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::virtual_test

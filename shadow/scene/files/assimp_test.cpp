@@ -2,7 +2,7 @@
 // What files read by Assimp hold besides triangles.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::assimp_test {
 namespace {
 
 using namespace testing_scene;
@@ -210,4 +210,4 @@ TEST(Assimp, ColoursOfVerticesAreSaid) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::assimp_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace gn {
+namespace gn::cases_test {
 namespace {
 
 using namespace testing_scene;
@@ -207,4 +207,4 @@ TEST(Cases, TransparencyOfMaterialLibraries) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::cases_test

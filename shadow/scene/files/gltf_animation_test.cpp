@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace gn {
+namespace gn::gltf_animation_test {
 namespace {
 
 using namespace testing_scene;
@@ -224,4 +224,4 @@ TEST(GltfAnimation, WhatWouldLeaveTheNumbersStays) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_animation_test

@@ -2,7 +2,7 @@
 // What of a glTF file decides where triangles stand and whether they are there at all.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::gltf_casts_test {
 namespace {
 
 using namespace testing_scene;
@@ -243,4 +243,4 @@ TEST(GltfExtensions, WhatLetsLightThroughAndIsNotReadIsSaidToCast) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_casts_test

@@ -4,7 +4,7 @@
 
 #include <draco/compression/encode.h>
 
-namespace gn {
+namespace gn::gltf_draco_test {
 namespace {
 
 using namespace testing_scene;
@@ -122,4 +122,4 @@ TEST(GltfDraco, PromisesAreNotBelieved) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_draco_test

@@ -3,7 +3,7 @@
 #include "shadow/scene/emission.h"
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::gltf_look_test {
 namespace {
 
 using namespace testing_scene;
@@ -233,4 +233,4 @@ texture = "panel.png"
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_look_test

@@ -20,8 +20,8 @@ std::string text(const tinygltf::Value& object, const char* key, const std::stri
     return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : otherwise;
 }
 
-Packed read_packed(const File& file, int view, const char* extension, const tinygltf::Value& data) {
-    Packed packed{.name = fmt::format("{}: {} of buffer view {}", file.shown, extension, view)};
+Packed read_packed(const File& file, int view, const char* name, const tinygltf::Value& data) {
+    Packed packed{.name = fmt::format("{}: {} of buffer view {}", file.shown, name, view)};
     const auto buffer = whole(data, "buffer");
     const auto length = whole(data, "byteLength");
     const auto count = whole(data, "count");

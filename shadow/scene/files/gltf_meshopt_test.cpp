@@ -4,7 +4,7 @@
 
 #include <meshoptimizer.h>
 
-namespace gn {
+namespace gn::gltf_meshopt_test {
 namespace {
 
 using namespace testing_scene;
@@ -211,4 +211,4 @@ TEST(GltfMeshopt, DamageEndsInASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_meshopt_test

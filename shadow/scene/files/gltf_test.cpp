@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::gltf_test {
 namespace {
 
 using namespace testing_scene;
@@ -250,4 +250,4 @@ TEST(Gltf, AFileOfAFewBytesIsCutOff) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_test

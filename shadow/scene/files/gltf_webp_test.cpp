@@ -5,7 +5,7 @@
 
 #include <webp/encode.h>
 
-namespace gn {
+namespace gn::gltf_webp_test {
 namespace {
 
 using namespace testing_scene;
@@ -89,4 +89,4 @@ TEST(GltfWebp, DamageEndsInASentence) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::gltf_webp_test

@@ -2,7 +2,7 @@
 // What a material library says about coverage.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::mtl_test {
 namespace {
 
 using namespace testing_scene;
@@ -126,4 +126,4 @@ TEST(Mtl, WhollyTransparentIsSaidOnce) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::mtl_test

@@ -2,7 +2,7 @@
 #include "shadow/scene/files/polygon.h"
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::obj_test {
 namespace {
 
 using namespace testing_scene;
@@ -138,4 +138,4 @@ TEST(Polygon, ConcaveOnesAreCutWithoutOverlap) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::obj_test

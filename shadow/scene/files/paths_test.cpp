@@ -2,7 +2,7 @@
 // Files that models name as another machine would: other letter case, backslashes, drives, folders of somebody else.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::paths_test {
 namespace {
 
 using namespace testing_scene;
@@ -204,4 +204,4 @@ TEST(Paths, NotesOfPlacedFilesCarryTheirName) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::paths_test

@@ -2,7 +2,7 @@
 #include "shadow/scene/emission.h"
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::toml_test {
 namespace {
 
 using namespace testing_scene;
@@ -177,4 +177,4 @@ TEST(Toml, LinksDoNotLeadOutOfTheFolder) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::toml_test

@@ -2,7 +2,7 @@
 // Models whose up is z: stood up where that is asked for, pointed out where it shows.
 #include "shadow/scene/testing.h"
 
-namespace gn {
+namespace gn::upright_test {
 namespace {
 
 using namespace testing_scene;
@@ -106,4 +106,4 @@ TEST(Upright, ItIsStoodUpWhereAskedFor) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::upright_test

@@ -11,7 +11,7 @@
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/sample_pass.h"
 
-namespace gn {
+namespace gn::parts::bilateral {
 namespace {
 
 constexpr const char* filter_text = R"(
@@ -93,10 +93,12 @@ Visibility add_bilateral(const FrameInput& input, const Recipe& recipe, const Vi
 }
 
 }  // namespace
+}  // namespace gn::parts::bilateral
 
-namespace parts {
+namespace gn::parts {
 
 const Part& visibility_bilateral() {
+    using namespace bilateral;
     static const Part part = [] {
         Part p;
         p.id = "bilateral";
@@ -120,5 +122,4 @@ const Part& visibility_bilateral() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -4,7 +4,7 @@
 #include "scenes/analytic.h"
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::bilateral_test {
 namespace {
 
 using namespace gn::glsl;
@@ -93,4 +93,4 @@ TEST(BilateralRendered, LessNoiseThanTheLookupAlone) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::bilateral_test

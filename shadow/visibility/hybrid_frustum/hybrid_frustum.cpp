@@ -15,7 +15,7 @@ namespace gn::parts {
 const Part& direct_irregular_z();
 }
 
-namespace gn {
+namespace gn::parts::hybrid_frustum {
 namespace {
 
 constexpr const char* blend_text = R"(
@@ -63,10 +63,12 @@ std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe
 }
 
 }  // namespace
+}  // namespace gn::parts::hybrid_frustum
 
-namespace parts {
+namespace gn::parts {
 
 const Part& visibility_hybrid_frustum() {
+    using namespace hybrid_frustum;
     static const Part part = [] {
         Part p;
         p.id = "hybrid-frustum";
@@ -94,5 +96,4 @@ const Part& visibility_hybrid_frustum() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -4,7 +4,7 @@
 
 #include "tests/rig.h"
 
-namespace gn {
+namespace gn::hybrid_frustum_test {
 namespace {
 
 TEST(HybridFrustum, WeighsTheSoftShadowByThePenumbrasWidth) {
@@ -38,4 +38,4 @@ TEST(HybridFrustumRendered, IsEitherShadowAtItsEndsAndBetweenThemElsewhere) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::hybrid_frustum_test

@@ -11,7 +11,7 @@
 #include <bit>
 #include <limits>
 
-namespace gn {
+namespace gn::parts::smallest_radius {
 namespace {
 
 /// Pixels that an invocation reads, one below the other, before its one atomic.
@@ -69,10 +69,12 @@ Visibility add_smallest_radius(const FrameInput& input, const Recipe&, const Vis
 }
 
 }  // namespace
+}  // namespace gn::parts::smallest_radius
 
-namespace parts {
+namespace gn::parts {
 
 const Part& visibility_smallest_radius() {
+    using namespace smallest_radius;
     static const Part part = [] {
         Part p;
         p.id = "smallest-radius";
@@ -86,5 +88,4 @@ const Part& visibility_smallest_radius() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace gn {
+namespace gn::smallest_radius_test {
 namespace {
 
 TEST(SmallestRadius, IsTheLeastThatIsToldAndVStays) {
@@ -39,4 +39,4 @@ TEST(SmallestRadius, IsTheLeastThatIsToldAndVStays) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::smallest_radius_test

@@ -18,7 +18,7 @@
 
 #include <array>
 
-namespace gn {
+namespace gn::parts::temporal {
 namespace {
 
 constexpr std::size_t most_boxes = 64;
@@ -191,10 +191,12 @@ Visibility add_temporal(const FrameInput& input, const Recipe& recipe, const Vis
 }
 
 }  // namespace
+}  // namespace gn::parts::temporal
 
-namespace parts {
+namespace gn::parts {
 
 const Part& visibility_temporal() {
+    using namespace temporal;
     static const Part part = [] {
         Part p;
         p.id = "temporal";
@@ -220,5 +222,4 @@ const Part& visibility_temporal() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts

@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace gn {
+namespace gn::temporal_test {
 namespace {
 
 constexpr uint width = 96, height = 64;
@@ -284,4 +284,4 @@ TEST(TemporalRendered, ShadowsOfWhatRestsAreKept) {
 }
 
 }  // namespace
-}  // namespace gn
+}  // namespace gn::temporal_test
