@@ -45,7 +45,7 @@ set(gn_test_environment
     GNOMON_CACHE=${CMAKE_BINARY_DIR}/../test-caches/gnomon
     GALLIVM_PERF=nopt
     LP_NATIVE_VECTOR_WIDTH=128
-    ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1
+    ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1:quarantine_size_mb=16
     LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0
     UBSAN_OPTIONS=print_stacktrace=1)
 

@@ -26,7 +26,7 @@ double light_in_the_umbra(const test::Comparison& c) {
 TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
     // What is left: exp(-c h) of a caster h before the receiver, and of moments what their rounding is worth. Both go with
     // the share of the depth range that the box has, and are a few hundredths at most.
-    const test::ComparisonOptions options{.width = 72, .height = 72, .samples = 1};
+    const test::ComparisonOptions options{.width = 48, .height = 48, .samples = 1};
     std::vector<std::pair<std::string, std::string>> placed{{"contact:light=point", "cube"},
                                                             {"contact:light=point", "paraboloid"},
                                                             {"contact", "fit"},

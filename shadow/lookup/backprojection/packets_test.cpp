@@ -10,7 +10,7 @@ namespace {
 /// The larger area that a packet searches holds nothing more that hides the light from any of its receivers.
 TEST(BackprojectionPacketsRendered, TogetherReceiversSeeWhatEachSeesAlone) {
     // A picture whose sides are no multiples of the packet's, with packets across the edges of the box.
-    const test::ComparisonOptions size{.width = 129, .height = 97, .samples = 1};
+    const test::ComparisonOptions size{.width = 97, .height = 73, .samples = 1};
     for (const char* scene : {"slab", "contact:radius=3"}) {
         const auto values = [&](int packet) {
             return test::compare(scene,
