@@ -87,7 +87,7 @@ double recording_ms(Bench& bench, const std::string& scene_name, const Row& row)
 
 void recording(Bench& bench) {
     constexpr std::array<int, 4> objects{1, 25, 200, 1000};
-    constexpr std::array<Row, 15> rows{
+    constexpr std::array<Row, 16> rows{
         {{"pcf", GN_LIGHT_SPOT, false},
          {"pcf", GN_LIGHT_POINT, false},
          {"cascades", GN_LIGHT_DIRECTIONAL, false},
@@ -98,6 +98,7 @@ void recording(Bench& bench) {
          {"pcf,visibility=bilateral", GN_LIGHT_SPOT, false},
          {"hard,resolution=64,light=accumulate,accumulate.lights=4", GN_LIGHT_SPOT, false},
          {"hard,resolution=64,light=accumulate,accumulate.lights=64", GN_LIGHT_SPOT, false},
+         {"volumes", GN_LIGHT_SPOT, false},
          {"pcf", GN_LIGHT_SPOT, true},
          {"pcf", GN_LIGHT_POINT, true},
          {"cascades", GN_LIGHT_DIRECTIONAL, true},

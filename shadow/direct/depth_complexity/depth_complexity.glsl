@@ -51,13 +51,16 @@ GN_FN int gn_depth_turn(GnSeenLight seen) {
 // section 4.1, whose edges that leave on the right add to all samples on one side
 GN_FN int gn_depth_crossings(vec2 a, vec2 b, vec2 q) {
     vec2 d = b - a;
+    // Of an edge in the sample's horizon one end is seen ten thousand lights away: products with it would round to whole lights.
+    vec2 near = dot(a, a) < dot(b, b) ? a : b;
     int row = int(b.y > q.y) - int(a.y > q.y);           // through q's row, upwards
     int column = int(a.x > 1.0f) - int(b.x > 1.0f);      // through the right side's line, to the left
-    float at_q = d.x * (q.y - a.y) - d.y * (q.x - a.x);  // on which side of the edge q lies,
-    float at_turn = d.x * (q.y - a.y) - d.y * (1.0f - a.x);  // and the corner of its way
+    float at_q = d.x * (q.y - near.y) - d.y * (q.x - near.x);  // on which side of the edge q lies,
+    bool turn_left = d.x * (q.y - near.y) > d.y * (1.0f - near.x);  // and the corner of its way
     bool after_q = float(row) * at_q > 0.0f;
-    bool after_turn = column != 0 ? float(row) * at_turn > 0.0f : a.x > 1.0f;
-    bool above = row != 0 ? float(column) * at_turn > 0.0f : a.y > q.y;
+    // An edge through the very corner is before it or after it on both legs of the way.
+    bool after_turn = column != 0 ? turn_left == (row > 0) : a.x > 1.0f;
+    bool above = row != 0 ? turn_left == (column > 0) : a.y > q.y;
     return (after_q && !after_turn ? row : 0) + (above ? column : 0);
 }
 
@@ -108,8 +111,17 @@ GN_FN int gn_depth_unpacked(uint word, uint field, uint bits) {
     return int(((word + bias) >> (field * bits)) & (2u * half_range - 1u)) - int(half_range);
 }
 
-// The number that makes counters numbers of surfaces, from what three points say of it: the one of which two are sure, else the
-// first. No point has fewer surfaces before it than none. [LAAL05] section 4.2, by volumes as [FBP08] does
+// What three references say of the number that makes counters numbers of surfaces, each at its height above the horizon of the
+// sample's surface. Near the horizon, where the surface's own edges end, rounding decides: the highest speaks for those that are low.
+GN_FN ivec3 gn_depth_heard(ivec3 votes, vec3 heights) {
+    float highest = max(heights.x, max(heights.y, heights.z));
+    int best = heights.x == highest ? votes.x : heights.y == highest ? votes.y : votes.z;
+    return ivec3(heights.x > 0.25f * highest ? votes.x : best, heights.y > 0.25f * highest ? votes.y : best,
+                 heights.z > 0.25f * highest ? votes.z : best);
+}
+
+// That number: the one of which two are sure, else the first. No point has fewer surfaces before it than none. [LAAL05] section 4.2,
+// by volumes as [FBP08] does
 GN_FN int gn_depth_constant(ivec3 votes, int least) {
     int constant = votes.y == votes.z ? votes.y : votes.x;
     return max(constant, -least);

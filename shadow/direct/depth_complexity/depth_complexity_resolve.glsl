@@ -31,18 +31,9 @@ void main() {
             bool above = dot(n_ws, seen.centre_ws + x_ws * points[i].x + y_ws * points[i].y) > 0.0;
             least = above ? min(least, counter_of(word, i)) : least;
         }
-        ivec3 votes = GN_DEPTH_VOTES;
-        // Near the horizon of the sample's surface, whose own edges end there, rounding decides: the highest reference speaks for
-        // those that are low.
         vec3 heights = vec3(dot(n_ws, gn_towards(p_ws, u.reference0_ws)), dot(n_ws, gn_towards(p_ws, u.reference1_ws)),
                             dot(n_ws, gn_towards(p_ws, u.reference2_ws)));
-        float highest = max(heights.x, max(heights.y, heights.z));
-        int best = heights.x == highest ? votes.x : heights.y == highest ? votes.y : votes.z;
-        votes = ivec3(heights.x > 0.25 * highest ? votes.x : best, heights.y > 0.25 * highest ? votes.y : best,
-                      heights.z > 0.25 * highest ? votes.z : best);
-        // What three places agree in holds, whatever rounding made of a single point's counter.
-        bool agreed = u.reference0_ws != u.reference1_ws && votes.x == votes.y && votes.y == votes.z;
-        int constant = agreed ? votes.x : gn_depth_constant(votes, least);
+        int constant = gn_depth_constant(gn_depth_heard(GN_DEPTH_VOTES, heights), least);
 
         // The points with nothing before them, above the surface, are seen, and weigh what they send.
         bool sun = u.light.kind == uint(GN_LIGHT_DIRECTIONAL);

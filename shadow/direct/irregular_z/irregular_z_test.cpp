@@ -3,6 +3,7 @@
 #include "shadow/direct/irregular_z/irregular_z.h"
 
 #include "base/paths.h"
+#include "reference/truth.h"
 #include "shadow/geometry/occluder.glsl"
 #include "tests/direct_scenes.h"
 #include "tests/thorough.h"
@@ -86,6 +87,84 @@ TEST(Occluder, OfASamplesOwnSurfaceHidesNothingHoweverItIsRounded) {
         sunk += glm::dot(dvec3(p) - dvec3(t.a), dvec3(n)) < 0 ? 1 : 0;
     }
     EXPECT_GT(sunk, 5000);
+}
+
+/// Two sheets that share an edge: view samples lie on `on`, and `over` stands above it at an angle.
+struct Hinge {
+    Scene scene;
+    GnOccluder on, over;
+    vec3 n_ws, n_over_ws;  ///< units
+
+    Hinge(float angle, std::mt19937& random) {
+        std::uniform_real_distribution<float> unit(-1, 1);
+        const auto any = [&] { return vec3(unit(random), unit(random), unit(random)); };
+        const vec3 along = glm::normalize(any()), out = glm::normalize(glm::cross(along, any()));
+        const vec3 up = glm::cross(along, out), middle = 30.0F * any();
+        const vec3 low = middle - 2.0F * along, high = middle + 2.0F * along, end = middle + 3.0F * out;
+        const vec3 end_over = middle + 3.0F * (std::cos(angle) * out + std::sin(angle) * up);
+        scene = SceneBuilder().mesh({low, high, end, end_over}, {{0, 1, 2}, {0, 3, 1}}).scene();
+        on = {low, high, end, false};
+        over = {low, end_over, high, false};
+        n_ws = unit_normal(on);
+        n_over_ws = unit_normal(over);
+    }
+    static vec3 unit_normal(const GnOccluder& t) {
+        return vec3(glm::normalize(glm::cross(dvec3(t.b) - dvec3(t.a), dvec3(t.c) - dvec3(t.a))));
+    }
+    /// A point of `on`, so far from the edge, as a float can have it.
+    [[nodiscard]] vec3 sample(float along, float from_edge) const {
+        const double share = static_cast<double>(from_edge) / 3.0;
+        return vec3(glm::mix(glm::mix(dvec3(on.a), dvec3(on.b), static_cast<double>(along)), dvec3(on.c), share));
+    }
+    /// One unit of rounding of such a point's height over the other sheet.
+    [[nodiscard]] float rounding(vec3 p_ws) const {
+        const vec3 corners = glm::max(glm::max(glm::abs(over.a), glm::abs(over.b)), glm::abs(over.c));
+        return glsl::gn_rounding(1, n_over_ws, glm::max(glm::abs(p_ws), corners));
+    }
+};
+
+TEST(Occluder, AtAHingeHidesAllThatLiesFartherFromASheetThanSamplesStray) {
+    // Of sheets within 8 degrees either may be the sample's own, from which it strays by up to 64 units; of others none is.
+    std::mt19937 random(15);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    std::array<int, 2> judged{}, hidden{};
+    for (int i = 0; i < 400; ++i) {
+        const bool flat = i % 2 == 0;
+        const float angle =
+            flat ? 1e-4F * std::pow(1200.0F, std::abs(unit(random))) : 0.16F + 0.8F * std::abs(unit(random));
+        const Hinge hinge(angle, random);
+        const vec3 tilt(unit(random), unit(random), unit(random));
+        const GnLight light = sun(-(hinge.n_ws + 0.3F * tilt));
+        std::vector<vec4> positions, normals;
+        for (int k = 0; k < 40; ++k) {
+            // From one to a thousand units over the other sheet.
+            const float units = std::pow(1000.0F, std::abs(unit(random)));
+            const float from_edge = units * hinge.rounding(hinge.on.a) / std::sin(angle);
+            if (from_edge < 2.5F) {
+                positions.emplace_back(hinge.sample(0.5F + 0.05F * unit(random), from_edge), 1);
+                normals.emplace_back(hinge.n_ws, 0);
+            }
+        }
+        const TruthResult traced = Truth(hinge.scene).trace(positions, normals, light, {.samples = 1, .threads = 1});
+        for (std::size_t k = 0; k < positions.size(); ++k) {
+            const vec3 p_ws(positions[k]);
+            const double height = std::abs(glm::dot(dvec3(hinge.n_over_ws), dvec3(p_ws) - dvec3(hinge.over.a)));
+            if (height < (flat ? 68.0 : 8.0) * static_cast<double>(hinge.rounding(p_ws))) {
+                continue;
+            }
+            const vec4 light_ws(-vec3(light.direction_ws), 0);
+            const bool hides = glsl::gn_occluder_hides(hinge.on, p_ws, hinge.n_ws, light_ws) ||
+                               glsl::gn_occluder_hides(hinge.over, p_ws, hinge.n_ws, light_ws);
+            EXPECT_EQ(hides, traced.visibility[k] == 0.0F)
+                << "angle " << angle << ", " << height / static_cast<double>(hinge.rounding(p_ws)) << " units above";
+            ++judged.at(flat ? 0 : 1);
+            hidden.at(flat ? 0 : 1) += hides ? 1 : 0;
+        }
+    }
+    for (const std::size_t k : {0U, 1U}) {
+        EXPECT_GT(judged.at(k), 1500);
+        EXPECT_GT(hidden.at(k), judged.at(k) / 2);
+    }
 }
 
 TEST(Occluder, LeavesNoGapBetweenTrianglesThatShareAnEdge) {
