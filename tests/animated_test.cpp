@@ -9,24 +9,18 @@
 namespace gn::animated_test {
 namespace {
 
-AnimatedScene column() {
-    const testing_scene::TempFolder folder;
-    return load_animated_scene(folder.write("column.gltf", testing_scene::bent_column()));
-}
-
-class Animated : public testing::TestWithParam<const char*> {};
-
-TEST_P(Animated, ASkinTakesItsShadowAlong) {
+void expect_shadow_along(const char* text, const char* animation) {
     const test::ValidationGuard guard;
-    const Recipe recipe = load_recipe(GetParam());
-    AnimatedScene loaded = column();
+    const Recipe recipe = load_recipe(text);
+    const testing_scene::TempFolder folder;
+    AnimatedScene loaded = load_animated_scene(folder.write("column.gltf", testing_scene::bent_column(true)));
     Scene& scene = loaded.scene;
     SceneGpu gpu = upload_scene(test::device(), scene);
     History history(test::device());
     FrameResult before = test::draw_moving(gpu, recipe, &history);
     for (const double seconds : {0.5, 1.0}) {
         // What was kept knows of the bend: the frame is that of a scene that always stood so.
-        pose_scene(scene, loaded.rig, find_animation(loaded.rig, "bend"), seconds);
+        pose_scene(scene, loaded.rig, find_animation(loaded.rig, animation), seconds);
         refresh_scene(test::device(), gpu);
         const FrameResult bent = test::draw_moving(gpu, recipe, &history);
         SceneGpu anew = upload_scene(test::device(), scene);
@@ -41,6 +35,16 @@ TEST_P(Animated, ASkinTakesItsShadowAlong) {
         EXPECT_LT(2 * error, test::error_against_truth(scene, left_behind)) << error << " at " << seconds;
         before = bent;
     }
+}
+
+class Animated : public testing::TestWithParam<const char*> {};
+
+TEST_P(Animated, ASkinTakesItsShadowAlong) {
+    expect_shadow_along(GetParam(), "bend");
+}
+
+TEST(Morphed, ItsShadowComesAlong) {
+    expect_shadow_along("hard,placement=cascades,cascades.scroll=1,resolution=512", "lean");
 }
 
 INSTANTIATE_TEST_SUITE_P(Recipes, Animated,

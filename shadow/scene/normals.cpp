@@ -2,6 +2,7 @@
 // Shading normals where a file gives none: angle-weighted means of the faces around a point, broken at creases.
 #include "base/error.h"
 #include "shadow/scene/model.h"
+#include "shadow/scene/smoothing.h"
 
 #include <algorithm>
 #include <numeric>
@@ -15,28 +16,12 @@ constexpr float crease_cosine = 0.6428F;
 // Around the tips of large fans, comparing all pairs of faces would take quadratic time: no creases there.
 constexpr std::size_t most_compared = 64;
 
-// A corner without a normal: of which triangle, at which welded point, with what weight.
+// A corner without a normal: of which triangle, at which welded point.
 struct Corner {
     std::uint32_t triangle = 0;
     std::uint32_t point = 0;
     std::uint8_t slot = 0;
-    float angle = 0.0F;
 };
-
-vec3 face_normal(const Scene& scene, std::uint32_t triangle) {
-    const uvec3 t = scene.triangles[triangle];
-    const dvec3 a(scene.positions_ws[t.x]);
-    const dvec3 ab = dvec3(scene.positions_ws[t.y]) - a;
-    const dvec3 ac = dvec3(scene.positions_ws[t.z]) - a;
-    return vec3(glm::normalize(glm::cross(ab, ac)));
-}
-
-float corner_angle(const Scene& scene, uvec3 t, int slot) {
-    const dvec3 p(scene.positions_ws[t[slot]]);
-    const dvec3 u = dvec3(scene.positions_ws[t[(slot + 1) % 3]]) - p;
-    const dvec3 v = dvec3(scene.positions_ws[t[(slot + 2) % 3]]) - p;
-    return static_cast<float>(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
-}
 
 // One number for all vertices at the same place, so that texture seams do not show as creases.
 std::vector<std::uint32_t> weld(const Scene& scene) {
@@ -67,34 +52,13 @@ std::vector<Corner> collect_corners(const Scene& scene) {
         const uvec3 t = scene.triangles[i];
         for (int slot = 0; slot < 3; ++slot) {
             if (scene.normals_ws[t[slot]] == vec3(0.0F)) {
-                corners.push_back(
-                    {i, point_of[t[slot]], static_cast<std::uint8_t>(slot), corner_angle(scene, t, slot)});
+                corners.push_back({i, point_of[t[slot]], static_cast<std::uint8_t>(slot)});
             }
         }
     }
     std::stable_sort(corners.begin(), corners.end(),
                      [](const Corner& a, const Corner& b) { return a.point < b.point; });
     return corners;
-}
-
-// The normals of all corners at one point.
-std::vector<vec3> point_normals(const Scene& scene, const Corner* first, std::size_t count) {
-    std::vector<vec3> faces(count);
-    vec3 all(0.0F);
-    for (std::size_t i = 0; i < count; ++i) {
-        faces[i] = face_normal(scene, first[i].triangle);
-        all += first[i].angle * faces[i];
-    }
-    std::vector<vec3> normals(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        vec3 sum = count > most_compared ? all : vec3(0.0F);
-        for (std::size_t j = 0; count <= most_compared && j < count; ++j) {
-            sum += glm::dot(faces[i], faces[j]) >= crease_cosine ? first[j].angle * faces[j] : vec3(0.0F);
-        }
-        const float length = glm::length(sum);
-        normals[i] = length > 1e-6F ? sum / length : faces[i];
-    }
-    return normals;
 }
 
 // Writes a corner's normal; where the vertex already has another one, the corner gets a vertex of its own.
@@ -142,17 +106,56 @@ class VertexSplitter {
 
 }  // namespace
 
+SmoothFace face_at(const Scene& scene, std::uint32_t triangle, int slot) {
+    const uvec3 t = scene.triangles[triangle];
+    const std::array corners{dvec3(scene.positions_ws[t.x]), dvec3(scene.positions_ws[t.y]),
+                             dvec3(scene.positions_ws[t.z])};
+    const dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const dvec3 p = corners[static_cast<std::size_t>(slot)];
+    const dvec3 u = corners[static_cast<std::size_t>((slot + 1) % 3)] - p;
+    const dvec3 v = corners[static_cast<std::size_t>((slot + 2) % 3)] - p;
+    return {.normal = glm::dot(across, across) > 0.0 ? vec3(glm::normalize(across)) : vec3(0.0F),
+            .angle = static_cast<float>(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)))};
+}
+
+std::vector<vec3> point_normals(std::span<const SmoothFace> faces, std::span<const vec3> creased_by) {
+    vec3 all(0.0F);
+    for (const SmoothFace& face : faces) {
+        all += face.angle * face.normal;
+    }
+    const std::size_t count = faces.size();
+    std::vector<vec3> normals(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        vec3 sum = count > most_compared ? all : vec3(0.0F);
+        for (std::size_t j = 0; count <= most_compared && j < count; ++j) {
+            const bool smooth = glm::dot(creased_by[i], creased_by[j]) >= crease_cosine;
+            sum += smooth ? faces[j].angle * faces[j].normal : vec3(0.0F);
+        }
+        const float length = glm::length(sum);
+        normals[i] = length > 1e-6F ? sum / length : faces[i].normal;
+    }
+    return normals;
+}
+
 std::vector<std::uint32_t> complete_normals(Scene& scene) {
     const std::vector<Corner> corners = collect_corners(scene);
     if (scene.positions_ws.size() + corners.size() > std::numeric_limits<std::uint32_t>::max()) {
         fail("the scene has too many vertices without normals ({})", corners.size());
     }
     VertexSplitter splitter(scene);
+    std::vector<SmoothFace> faces;
+    std::vector<vec3> creased_by;
     for (std::size_t begin = 0, end = 0; begin < corners.size(); begin = end) {
         while (end < corners.size() && corners[end].point == corners[begin].point) {
             ++end;
         }
-        const std::vector<vec3> normals = point_normals(scene, &corners[begin], end - begin);
+        faces.clear();
+        creased_by.clear();
+        for (std::size_t i = begin; i < end; ++i) {
+            faces.push_back(face_at(scene, corners[i].triangle, corners[i].slot));
+            creased_by.push_back(faces.back().normal);
+        }
+        const std::vector<vec3> normals = point_normals(faces, creased_by);
         splitter.begin_point();
         for (std::size_t i = begin; i < end; ++i) {
             splitter.set(corners[i], normals[i - begin]);

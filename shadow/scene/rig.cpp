@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/param.h"
 #include "shadow/scene/model.h"
+#include "shadow/scene/morph.h"
 
 #include <algorithm>
 #include <charconv>
@@ -19,14 +20,19 @@ glm::dmat3 cofactors_of(const dmat4& m) {
     return {glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1])};
 }
 
-/// Where a follower's vertices go: all by one matrix, or each by the mean of its joints'.
+/// Of a follower, at one pose: its shape morphed, and where that goes, all by one matrix or each by the mean of its joints'.
 class Placing {
   public:
-    Placing(const Rig& rig, const Follower& follower, std::span<const dmat4> nodes)
+    Placing(const Rig& rig, const Follower& follower, std::span<const dmat4> nodes, std::span<const double> weights)
         : shape_(rig.shapes[follower.shape]), follower_(follower) {
         whole_ = follower.node >= 0 ? nodes[static_cast<std::size_t>(follower.node)] * follower.node_from_os : dmat4(1);
         if (follower.skin >= 0) {
             joints_ = joint_matrices(rig.skins[static_cast<std::size_t>(follower.skin)], nodes);
+        }
+        if (follower.weights >= 0) {
+            morphed_.positions_os = shape_.positions_os;
+            morphed_.normals_os.assign(shape_.normals_os.begin(), shape_.normals_os.end());
+            add_targets(shape_.targets, weights, morphed_);
         }
     }
 
@@ -34,17 +40,30 @@ class Placing {
     [[nodiscard]] dmat4 ws_from_os(std::size_t vertex) const {
         return follower_.skin < 0 ? whole_ : blend_joints(shape_, vertex, joints_).value_or(whole_);
     }
+    [[nodiscard]] dvec3 position_os(std::size_t vertex) const {
+        return morphed_.positions_os.empty() ? shape_.positions_os[vertex] : morphed_.positions_os[vertex];
+    }
+    /// Of a vertex of the shape or, behind them, a copy.
+    [[nodiscard]] dvec3 normal_os(std::size_t n) const {
+        const bool given = n < morphed_.normals_os.size() && morphed_.normals_os[n] != dvec3(0);
+        return given ? follower_.facing * morphed_.normals_os[n] : dvec3(follower_.normals_os[n]);
+    }
 
     /// The mean over all vertices.
     [[nodiscard]] dmat4 mean() const {
-        if (follower_.skin < 0) {
-            return whole_;
+        dvec3 morph_os(0);
+        for (std::size_t v = 0; v < morphed_.positions_os.size(); ++v) {
+            morph_os +=
+                (morphed_.positions_os[v] - shape_.positions_os[v]) / static_cast<double>(morphed_.positions_os.size());
         }
-        dmat4 sum = follower_.shares.back() * whole_;
-        for (std::size_t j = 0; j < joints_.size(); ++j) {
-            sum += follower_.shares[j] * joints_[j];
+        dmat4 mean = whole_;
+        if (follower_.skin >= 0) {
+            mean *= follower_.shares.back();
+            for (std::size_t j = 0; j < joints_.size(); ++j) {
+                mean += follower_.shares[j] * joints_[j];
+            }
         }
-        return sum;
+        return glm::translate(mean, morph_os);
     }
 
   private:
@@ -52,7 +71,20 @@ class Placing {
     const Follower& follower_;
     dmat4 whole_{1};
     std::vector<dmat4> joints_;
+    Morphed morphed_;
 };
+
+/// Of the node that its targets follow.
+std::span<const double> weights_of(const Follower& follower, std::span<const std::vector<double>> weights) {
+    return follower.weights >= 0 ? std::span<const double>(weights[static_cast<std::size_t>(follower.weights)])
+                                 : std::span<const double>();
+}
+
+Placing at_rest(const Rig& rig, const Follower& follower) {
+    return {rig, follower, rig.rest,
+            follower.weights >= 0 ? std::span(rig.nodes[static_cast<std::size_t>(follower.weights)].weights)
+                                  : std::span<const double>()};
+}
 
 /// Whether anything of it stands otherwise by the one nodes than by the others.
 bool differs(const Rig& rig, const Follower& follower, std::span<const dmat4> a, std::span<const dmat4> b) {
@@ -73,17 +105,16 @@ bool within(dvec3 p) {
 
 /// Writes positions and normals; false, and nothing written, where one would leave the numbers.
 bool place_vertices(Scene& scene, const Rig& rig, const Follower& follower, const Placing& placing) {
-    const RigShape& shape = rig.shapes[follower.shape];
-    const std::size_t count = shape.positions_os.size();
+    const std::size_t count = rig.shapes[follower.shape].positions_os.size();
     std::vector<vec3> positions_ws(count), normals_ws(follower.normals_os.size());
     const auto turned = [&](const dmat4& m, std::size_t n) {
-        const dvec3 normal = cofactors_of(m) * dvec3(follower.normals_os[n]);
+        const dvec3 normal = cofactors_of(m) * placing.normal_os(n);
         const double length = glm::length(normal);
         return std::isfinite(length) && length > 0 ? vec3(normal / length) : vec3(0, 1, 0);
     };
     for (std::size_t v = 0; v < count; ++v) {
         const dmat4 m = placing.ws_from_os(v);
-        const dvec3 p_ws = dvec3(m * dvec4(shape.positions_os[v], 1)) - scene.origin;
+        const dvec3 p_ws = dvec3(m * dvec4(placing.position_os(v), 1)) - scene.origin;
         if (!within(p_ws)) {
             return false;
         }
@@ -97,6 +128,7 @@ bool place_vertices(Scene& scene, const Rig& rig, const Follower& follower, cons
         scene.positions_ws[copy.vertex] = positions_ws[copy.of];
         scene.normals_ws[copy.vertex] = turned(placing.ws_from_os(copy.of), count + i);
     }
+    smooth_normals(scene, follower.smooth);
     return true;
 }
 
@@ -200,15 +232,24 @@ std::size_t find_animation(const Rig& rig, const std::string& name) {
     fail("--animation: there is no animation '{}'; {}", name, suggest(name, known));
 }
 
+namespace {
+
+std::span<const Channel> channels_of(const Rig& rig, std::optional<std::size_t> animation) {
+    return animation ? std::span<const Channel>(rig.animations.at(*animation).channels) : std::span<const Channel>();
+}
+
+}  // namespace
+
 std::vector<dmat4> pose_nodes(const Rig& rig, std::optional<std::size_t> animation, double seconds) {
     std::vector<RigNode> nodes = rig.nodes;
-    for (const Channel& channel : animation ? rig.animations.at(*animation).channels : std::vector<Channel>{}) {
+    for (const Channel& channel : channels_of(rig, animation)) {
         const Curve& curve = rig.curves[channel.curve];
         RigNode& node = nodes[channel.node];
         switch (channel.path) {
             case Channel::translation: node.translation = vector_at(curve, seconds); break;
             case Channel::rotation: node.rotation = rotation_at(curve, seconds); break;
             case Channel::scale: node.scale = vector_at(curve, seconds); break;
+            case Channel::weight: break;
         }
     }
     std::vector<dmat4> ws_from_node;
@@ -220,24 +261,41 @@ std::vector<dmat4> pose_nodes(const Rig& rig, std::optional<std::size_t> animati
     return ws_from_node;
 }
 
+std::vector<std::vector<double>> pose_weights(const Rig& rig, std::optional<std::size_t> animation, double seconds) {
+    std::vector<std::vector<double>> weights;
+    weights.reserve(rig.nodes.size());
+    for (const RigNode& node : rig.nodes) {
+        weights.push_back(node.weights);
+    }
+    for (const Channel& channel : channels_of(rig, animation)) {
+        if (channel.path == Channel::weight) {
+            weights[channel.node].at(channel.target) = vector_at(rig.curves[channel.curve], seconds).x;
+        }
+    }
+    return weights;
+}
+
 std::vector<std::string> pose_scene(Scene& scene, Rig& rig, std::optional<std::size_t> animation, double seconds) {
     std::vector<std::string> remarks;
     if (!rig.moves()) {
         return remarks;
     }
     const std::vector<dmat4> before = std::exchange(rig.now, pose_nodes(rig, animation, seconds));
+    const std::vector<std::vector<double>> weights_before =
+        std::exchange(rig.weights, pose_weights(rig, animation, seconds));
 
     // What stands otherwise than before.
     std::vector<std::optional<dmat4>> moved(rig.followers.size());
     std::size_t lost = 0;
     for (std::size_t f = 0; f < rig.followers.size(); ++f) {
         const Follower& follower = rig.followers[f];
-        if (!differs(rig, follower, before, rig.now)) {
+        const std::span weights = weights_of(follower, rig.weights), held = weights_of(follower, weights_before);
+        if (!differs(rig, follower, before, rig.now) && std::equal(weights.begin(), weights.end(), held.begin())) {
             continue;
         }
-        const Placing placing(rig, follower, rig.now);
+        const Placing placing(rig, follower, rig.now, weights);
         if (place_vertices(scene, rig, follower, placing)) {
-            moved[f] = move_between(placing.mean(), Placing(rig, follower, rig.rest).mean(), scene.origin);
+            moved[f] = move_between(placing.mean(), at_rest(rig, follower).mean(), scene.origin);
         } else {
             ++lost;
         }
@@ -276,10 +334,33 @@ std::vector<double> shares_of(const RigShape& shape, std::size_t joints) {
     return shares;
 }
 
+/// Of every follower that morphs: corners of its triangles where the file gives no normal. Copies were made for these alone.
+void bind_smooth_corners(const Scene& scene, Rig& rig) {
+    std::vector<std::vector<std::uint32_t>> triangles(rig.followers.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const int f = rig.followed[i];
+        if (f >= 0 && rig.followers[static_cast<std::size_t>(f)].weights >= 0) {
+            const Object& object = scene.objects[i];
+            for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
+                triangles[static_cast<std::size_t>(f)].push_back(object.first_triangle + t);
+            }
+        }
+    }
+    for (std::size_t f = 0; f < rig.followers.size(); ++f) {
+        Follower& follower = rig.followers[f];
+        const std::vector<vec3>& given = rig.shapes[follower.shape].normals_os;
+        follower.smooth = find_smooth_corners(scene, triangles[f], [&](std::uint32_t vertex) {
+            const std::uint32_t v = vertex - follower.first_vertex;
+            return vertex < follower.first_vertex || v >= given.size() || given[v] == vec3(0);
+        });
+    }
+}
+
 }  // namespace
 
 void bind_rig(const Scene& scene, Rig& rig, std::size_t vertices, std::span<const std::uint32_t> copies) {
     rig.rest = rig.now = pose_nodes(rig, std::nullopt, 0);
+    rig.weights = pose_weights(rig, std::nullopt, 0);
 
     // Whom a vertex of the scene belongs to; followers ascend.
     const auto follower_of = [&](std::uint32_t vertex) {
@@ -311,7 +392,10 @@ void bind_rig(const Scene& scene, Rig& rig, std::size_t vertices, std::span<cons
             follower.shares =
                 shares_of(rig.shapes[follower.shape], rig.skins[static_cast<std::size_t>(follower.skin)].joints.size());
         }
-        const Placing placing(rig, follower, rig.rest);
+        const Placing placing = at_rest(rig, follower);
+        if (follower.skin < 0 && glm::determinant(glm::dmat3(placing.ws_from_os(0))) < 0) {
+            follower.facing = -1;
+        }
         const auto add = [&](std::size_t v, vec3 n_ws) {
             const glm::dmat3 linear(placing.ws_from_os(v));
             const dvec3 n = (glm::determinant(linear) < 0 ? -1.0 : 1.0) * (glm::transpose(linear) * dvec3(n_ws));
@@ -325,6 +409,7 @@ void bind_rig(const Scene& scene, Rig& rig, std::size_t vertices, std::span<cons
             add(copy.of, scene.normals_ws[copy.vertex]);
         }
     }
+    bind_smooth_corners(scene, rig);
     for (CarriedLight& carried : rig.lights) {
         carried.rest = scene.lights.at(carried.light);
     }

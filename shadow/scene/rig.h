@@ -9,6 +9,7 @@
 #pragma once
 
 #include "shadow/scene/scene.h"
+#include "shadow/scene/smoothing.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -41,16 +42,18 @@ struct RigNode {
     glm::dquat rotation{1, 0, 0, 0};
     dvec3 scale{1};
     std::optional<dmat4> matrix;  ///< instead of the three, which then nothing moves
+    std::vector<double> weights;  ///< of its mesh's morph targets
 };
 
 dmat4 local_matrix(const RigNode& node);
 
-/// One property of one node follows a curve.
+/// One property of one node follows a curve; a weight its x.
 struct Channel {
-    enum Path { translation, rotation, scale };
+    enum Path { translation, rotation, scale, weight };
     std::size_t node = 0;
     Path path = translation;
     std::size_t curve = 0;
+    std::size_t target = 0;  ///< whose weight it is
 };
 
 struct Animation {
@@ -72,9 +75,17 @@ struct Influence {
     float weight = 0;         ///< above 0; those of a vertex need not sum to one
 };
 
-/// A mesh as it is before it is placed or posed.
+/// How far the vertices of a shape go at a weight of 1. Those that stand still are not listed.
+struct MorphTarget {
+    std::vector<std::uint32_t> vertices;         ///< of the shape, ascending
+    std::vector<vec3> positions_os, normals_os;  ///< displacements, one a vertex in the list
+};
+
+/// A mesh as it is before it is morphed, placed or posed.
 struct RigShape {
     std::vector<dvec3> positions_os;
+    std::vector<vec3> normals_os;  ///< with targets: the file's own, unit; 0 where it gives none
+    std::vector<MorphTarget> targets;
     /// With a skin: the influences of vertex v are [first[v], first[v + 1]).
     std::vector<std::uint32_t> first;
     std::vector<Influence> influences;
@@ -89,13 +100,16 @@ struct Follower {
     int node = -1;                   ///< that all of it follows; with a skin, what hangs on no joint. -1: the origin
     int skin = -1;                   ///< -1: none
     dmat4 node_from_os{1};           ///< without a skin
+    int weights = -1;                ///< the node whose weights the shape's targets take; -1: none
     std::uint32_t first_vertex = 0;  ///< of the scene, as many as the shape has
     struct Copy {
         std::uint32_t vertex = 0, of = 0;  ///< a vertex of the scene, and the shape's
     };
     std::vector<Copy> copies;      ///< vertices that stand where another one does, with another normal
     std::vector<vec3> normals_os;  ///< of the shape's vertices, then of the copies
+    double facing = 1;             ///< -1: mirrored at rest, so that normals_os are the file's turned round
     std::vector<double> shares;    ///< of every joint in the mean of the vertices' matrices, then of what hangs on none
+    std::vector<SmoothCorner> smooth;  ///< with weights: of the vertices that no file gave a normal
 };
 
 /// A light or a camera that a node carries, as it is at rest.
@@ -119,8 +133,9 @@ struct Rig {
     std::vector<CarriedLight> lights;
     std::vector<CarriedCamera> cameras;
 
-    std::vector<int> followed;     ///< by each object of the scene: its follower, or -1
-    std::vector<dmat4> rest, now;  ///< ws_from_node of every node: at rest, and as the scene stands
+    std::vector<int> followed;                 ///< by each object of the scene: its follower, or -1
+    std::vector<dmat4> rest, now;              ///< ws_from_node of every node: at rest, and as the scene stands
+    std::vector<std::vector<double>> weights;  ///< of every node, as the scene stands
 
     [[nodiscard]] bool moves() const { return !animations.empty(); }
 };
@@ -138,10 +153,12 @@ std::size_t find_animation(const Rig& rig, const std::string& name);
 
 /// World matrices of all nodes at a time of an animation; unset: at rest.
 std::vector<dmat4> pose_nodes(const Rig& rig, std::optional<std::size_t> animation, double seconds);
+/// Likewise the weights of their morph targets.
+std::vector<std::vector<double>> pose_weights(const Rig& rig, std::optional<std::size_t> animation, double seconds);
 
 /// Moves the scene to a time of an animation; unset: to where it is at rest. Positions, normals and bounds of what moved
 /// follow, with a new version of its objects (refresh_scene brings them to the GPU); lights and cameras that nodes carry
-/// follow too. now_from_first is exact of what follows a node, and of a skin the mean of its vertices' transforms. What
+/// follow too. now_from_first is exact of what follows a node; of a skin and of what morphs it is the mean of its vertices'. What
 /// would leave the numbers (beyond 1e9 m) stays where it was. What must be said of the pose, one sentence each.
 std::vector<std::string> pose_scene(Scene& scene, Rig& rig, std::optional<std::size_t> animation, double seconds);
 

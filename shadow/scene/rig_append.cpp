@@ -30,6 +30,7 @@ void append_rig(Rig& whole, Rig part, const dmat4& ws_from_part) {
     for (Follower& follower : part.followers) {
         follower.shape += whole.shapes.size();
         follower.node = follower.node >= 0 ? shift(follower.node) : static_cast<int>(root);
+        follower.weights = shift(follower.weights);
         follower.skin += follower.skin >= 0 ? skins : 0;
         whole.followers.push_back(std::move(follower));
     }
@@ -50,7 +51,7 @@ void append_rig(Rig& whole, Rig part, const dmat4& ws_from_part) {
             known = whole.animations.insert(whole.animations.end(), Animation{animation.name, {}, 0});
         }
         for (Channel channel : animation.channels) {
-            known->channels.push_back({channel.node + first, channel.path, channel.curve + curves});
+            known->channels.push_back({channel.node + first, channel.path, channel.curve + curves, channel.target});
         }
         known->seconds = std::max(known->seconds, animation.seconds);
     }

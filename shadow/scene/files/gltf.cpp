@@ -22,8 +22,10 @@ class Builder {
     Builder(File& file, Model& model, Pictures& pictures)
         : file_(file), model_(model), uv_uses_(load_materials(file, model, pictures)) {}
 
-    // `hold`: null without a skin. `moved`: the node's place in the rig, where something moves it.
-    void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Hold* hold, std::optional<int> moved) {
+    // `hold`: null without a skin. `moved`, `morphed`: the node's place in the rig, where something moves it, and where curves
+    // move the weights of its mesh.
+    void add(const tinygltf::Node& node, const dmat4& ws_from_node, const Hold* hold, std::optional<int> moved,
+             std::optional<int> morphed) {
         if (node.mesh < 0) {
             return;
         }
@@ -37,43 +39,70 @@ class Builder {
             // A posed mesh is already in the world: the node's own matrix plays no part.
             std::vector<RigShape> shapes;
             const std::vector<std::size_t> meshes =
-                load(data, {&hold->joints, weights}, hold->skin ? &shapes : nullptr);
+                load(data, {&hold->joints, weights, nullptr, morphed.has_value()}, hold->skin ? &shapes : nullptr);
             for (std::size_t i = 0; i < meshes.size(); ++i) {
                 Instance& instance = add_instance(meshes[i], dmat4(1.0), name, orders);
                 if (hold->skin) {
-                    instance.follower = follow(std::move(shapes[i]), {.skin = *hold->skin});
+                    const int weighted = shapes[i].targets.empty() ? -1 : *morphed;
+                    instance.follower = follow(keep(std::move(shapes[i])), {.skin = *hold->skin, .weights = weighted});
                 }
             }
             return;
         }
-        const std::pair key(node.mesh, weights);
+        const std::tuple key(node.mesh, weights, morphed.has_value());
         const auto known = meshes_.find(key);
-        const auto& parts = known != meshes_.end() ? known->second : meshes_[key] = load(data, {nullptr, weights});
+        const auto& parts =
+            known != meshes_.end() ? known->second : meshes_[key] = load_parts(data, weights, morphed.has_value());
         for (const dmat4& node_from_instance : instance_matrices(file_, node)) {
-            for (const std::size_t mesh : parts) {
-                Instance& instance = add_instance(mesh, ws_from_node * node_from_instance, name, orders);
-                if (moved) {
-                    instance.follower = follow(mesh, {.node = *moved, .node_from_os = node_from_instance});
+            for (const Part& part : parts) {
+                Instance& instance = add_instance(part.mesh, ws_from_node * node_from_instance, name, orders);
+                if (part.shape) {
+                    instance.follower = follow(
+                        *part.shape, {.node = *morphed, .node_from_os = node_from_instance, .weights = *morphed});
+                } else if (moved) {
+                    instance.follower =
+                        follow(shape_of(part.mesh), {.node = *moved, .node_from_os = node_from_instance});
                 }
             }
         }
     }
 
   private:
-    // The vertices that a rig moves: all instances of a mesh by one copy.
-    std::size_t follow(std::size_t mesh, Follower follower) {
-        const auto [known, added] = shapes_.try_emplace(mesh, model_.rig.shapes.size());
-        if (added) {
-            model_.rig.shapes.push_back({.positions_os = model_.meshes[mesh].positions_os});
+    // A primitive's mesh, and its shape where curves move the weights of its targets.
+    struct Part {
+        std::size_t mesh = 0;
+        std::optional<std::size_t> shape;
+    };
+    std::vector<Part> load_parts(const tinygltf::Mesh& data, const std::vector<double>& weights, bool morphs) {
+        std::vector<RigShape> shapes;
+        const std::vector<std::size_t> meshes =
+            load(data, {nullptr, weights, nullptr, morphs}, morphs ? &shapes : nullptr);
+        std::vector<Part> parts;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            Part& part = parts.emplace_back(Part{meshes[i], {}});
+            if (morphs && !shapes[i].targets.empty()) {
+                part.shape = keep(std::move(shapes[i]));
+            }
         }
-        follower.shape = known->second;
-        model_.rig.followers.push_back(std::move(follower));
-        return model_.rig.followers.size() - 1;
+        return parts;
     }
 
-    std::size_t follow(RigShape shape, Follower follower) {
-        follower.shape = model_.rig.shapes.size();
+    // The vertices that a rig moves: all instances of a mesh by one copy.
+    std::size_t shape_of(std::size_t mesh) {
+        const auto [known, added] = shapes_.try_emplace(mesh, model_.rig.shapes.size());
+        if (added) {
+            keep({.positions_os = model_.meshes[mesh].positions_os});
+        }
+        return known->second;
+    }
+
+    std::size_t keep(RigShape shape) {
         model_.rig.shapes.push_back(std::move(shape));
+        return model_.rig.shapes.size() - 1;
+    }
+
+    std::size_t follow(std::size_t shape, Follower follower) {
+        follower.shape = shape;
         model_.rig.followers.push_back(std::move(follower));
         return model_.rig.followers.size() - 1;
     }
@@ -82,6 +111,7 @@ class Builder {
     std::vector<std::size_t> load(const tinygltf::Mesh& data, const Pose& pose,
                                   std::vector<RigShape>* shapes = nullptr) {
         std::vector<std::size_t> parts;
+        note_weights(data, pose.weights);
         const Orders of_mesh = read_orders(file_, data.extras, fmt::format("Mesh '{}'", clean_text(data.name)));
         for (const tinygltf::Primitive& primitive : data.primitives) {
             const bool known =
@@ -93,8 +123,8 @@ class Builder {
                 known ? static_cast<std::size_t>(primitive.material) : file_.data.materials.size();
             RigShape shape;
             Mesh mesh = load_primitive(file_, primitive, uv_uses_[material],
-                                       {pose.joints, pose.weights, shapes != nullptr ? &shape : nullptr});
-            mesh.name = clean_text(data.name);
+                                       {pose.joints, pose.weights, shapes != nullptr ? &shape : nullptr, pose.morphs},
+                                       clean_text(data.name));
             mesh.material = with_factor(static_cast<int>(material), mesh);
             note_missing_uvs(primitive, material);
             if (!mesh.triangles.empty()) {
@@ -107,6 +137,15 @@ class Builder {
             }
         }
         return parts;
+    }
+
+    void note_weights(const tinygltf::Mesh& data, std::span<const double> weights) {
+        const std::size_t targets = count_targets(data);
+        if (!weights.empty() && weights.size() != targets) {
+            add_note(file_.notes,
+                     fmt::format("Mesh '{}' has {} morph targets and {} weights: those without a partner do nothing.",
+                                 clean_text(data.name), targets, weights.size()));
+        }
     }
 
     // One alpha for all vertices is a factor: what it covers is decided, and said, as for the material's own.
@@ -166,7 +205,7 @@ class Builder {
     File& file_;
     Model& model_;
     std::vector<UvUse> uv_uses_;
-    std::map<std::pair<int, std::vector<double>>, std::vector<std::size_t>> meshes_;
+    std::map<std::tuple<int, std::vector<double>, bool>, std::vector<Part>> meshes_;
     std::vector<Orders> orders_;  ///< of model_.meshes
     std::map<std::size_t, Orders> of_materials_;
     std::map<std::size_t, std::size_t> shapes_;                  ///< of meshes that move whole
@@ -185,13 +224,13 @@ class Skins {
         }
     }
 
-    // Null without a skin that has joints.
-    const Hold* find(int index) {
+    // Null without a skin that has joints. `morphs`: what it holds changes even where no joint moves.
+    const Hold* find(int index, bool morphs) {
         if (index < 0) {
             return nullptr;
         }
         const auto known = holds_.find(index);
-        if (known != holds_.end()) {
+        if (known != holds_.end() && (known->second.skin || !morphs)) {
             return &known->second;
         }
         Skin skin = load_skin(file_, index, walked_);
@@ -200,8 +239,8 @@ class Skins {
         }
         Hold& hold = holds_[index];
         hold.joints = joint_matrices(skin, rest_);
-        if (std::any_of(skin.joints.begin(), skin.joints.end(),
-                        [&](int joint) { return joint >= 0 && moved_[static_cast<std::size_t>(joint)]; })) {
+        if (morphs || std::any_of(skin.joints.begin(), skin.joints.end(),
+                                  [&](int joint) { return joint >= 0 && moved_[static_cast<std::size_t>(joint)]; })) {
             hold.skin = static_cast<int>(rig_.skins.size());
             rig_.skins.push_back(std::move(skin));
         }
@@ -217,12 +256,12 @@ class Skins {
     std::map<int, Hold> holds_;
 };
 
-// By each node: whether a curve moves it, or one above it.
+// By each node: whether a curve moves it, or one above it; weights move vertices alone.
 std::vector<bool> find_moved(const Rig& rig, std::span<const PlacedNode> nodes) {
     std::vector<bool> moved(nodes.size(), false);
     for (const Animation& animation : rig.animations) {
         for (const Channel& channel : animation.channels) {
-            moved[channel.node] = true;
+            moved[channel.node] = moved[channel.node] || channel.path != Channel::weight;
         }
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -279,6 +318,7 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
     model.rig = load_rig(file, nodes);
     note_animations(file, model.rig);
     const std::vector<bool> moved = find_moved(model.rig, nodes);
+    const std::vector<bool> morphed = find_morphed(model.rig, nodes.size());
     Skins skins(file, model.rig, nodes, moved);
 
     // What every node carries.
@@ -286,8 +326,9 @@ Model load_gltf(const std::filesystem::path& path, const Assets& assets) {
         const PlacedNode& node = nodes[i];
         const tinygltf::Node& data = file.data.nodes[static_cast<std::size_t>(node.index)];
         if (node.visible) {
-            builder.add(data, node.ws_from_node, data.mesh >= 0 ? skins.find(data.skin) : nullptr,
-                        moved[i] ? std::optional(static_cast<int>(i)) : std::nullopt);
+            const auto place_if = [i](bool so) { return so ? std::optional(static_cast<int>(i)) : std::nullopt; };
+            builder.add(data, node.ws_from_node, data.mesh >= 0 ? skins.find(data.skin, morphed[i]) : nullptr,
+                        place_if(moved[i]), place_if(morphed[i]));
             if (std::optional<PlacedLight> light = load_light(file, data, node.ws_from_node, pictures)) {
                 if (moved[i]) {
                     model.rig.lights.push_back({model.lights.size(), i, {}});

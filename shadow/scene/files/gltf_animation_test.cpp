@@ -181,7 +181,7 @@ TEST(GltfAnimation, WhatCannotBePlayedIsSaidAndStandsAtRest) {
            [&](GltfText& g) { swap(g, "\"output\":2", R"("output":2,"interpolation":"CUBICSPLINE")"); });
     expect("'WILD' is not known",
            [&](GltfText& g) { swap(g, "\"output\":2", R"("output":2,"interpolation":"WILD")"); });
-    expect("'weights' is not moved", [&](GltfText& g) { swap(g, "rotation", "weights"); });
+    expect("'pointer' is not moved", [&](GltfText& g) { swap(g, "rotation", "pointer"); });
     expect("node 7 does not exist", [&](GltfText& g) { swap(g, "\"node\":0", "\"node\":7"); });
     expect("sampler 3 does not exist", [&](GltfText& g) { swap(g, "\"sampler\":0", "\"sampler\":3"); });
     expect("has a matrix", [](GltfText& g) { g.nodes = R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,10,0,0,1]})"; });

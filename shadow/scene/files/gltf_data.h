@@ -25,6 +25,7 @@ struct File {
     std::size_t coarse_triangles = 0;   ///< of these, as large as few steps of the floats that hold their positions
     double coarse_step = 0;             ///< the largest of these steps
     std::size_t influences = 0;         ///< of joints on vertices, read so far
+    std::size_t displacements = 0;      ///< of morph targets on vertices, read so far
 };
 
 /// Throws Error for what is no JSON, for nesting or a number of values that only an attack has, and for indices,
@@ -120,6 +121,8 @@ RigNode node_at_rest(const tinygltf::Node& node);
 /// The nodes as a rig, in the order of the walk, and the animations that move any of them. What cannot be played is left out
 /// with a note. No animation: the rig is empty.
 Rig load_rig(File& file, std::span<const PlacedNode> nodes);
+/// By each of so many nodes: whether a curve moves a weight of its mesh.
+std::vector<bool> find_morphed(const Rig& rig, std::size_t nodes);
 /// A skin whose joints are numbered as the walk does. Throws Error.
 Skin load_skin(const File& file, int skin, std::span<const int> walked);
 
@@ -128,14 +131,19 @@ using Joints = std::vector<dmat4>;
 /// What moves the vertices of a primitive before it is placed.
 struct Pose {
     const Joints* joints = nullptr;
-    std::span<const double> weights;  ///< of the morph targets
+    std::span<const double> weights;  ///< of the morph targets, at rest
     RigShape* shape = nullptr;        ///< not null: takes the vertices as they were before the joints moved them
+    bool morphs = false;              ///< as they were before the targets moved them, and the targets
 };
 /// The triangles of one primitive in object space (in world space with joints); empty when there are none.
-Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose);
-/// Adds the weighted morph targets to a mesh whose vertex i is the file's used[i].
+Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose,
+                    const std::string& name);
+/// Adds the weighted morph targets to a mesh whose vertex i is the file's used[i]. `shape`: null, or takes the mesh as it was,
+/// and all targets, for weights that change. A target that cannot be read moves nothing, with a note.
 void morph(File& file, const tinygltf::Primitive& primitive, std::span<const double> weights,
-           const std::vector<std::uint32_t>& used, Mesh& mesh);
+           const std::vector<std::uint32_t>& used, Mesh& mesh, RigShape* shape);
+/// Of the primitive that has most.
+std::size_t count_targets(const tinygltf::Mesh& mesh);
 /// The matrices by which EXT_mesh_gpu_instancing shows a node's mesh, below the node's own; one identity without it.
 std::vector<dmat4> instance_matrices(File& file, const tinygltf::Node& node);
 

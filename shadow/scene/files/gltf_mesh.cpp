@@ -124,12 +124,14 @@ std::vector<Influences> find_influences(const Source& source) {
     }
 }
 
-// The vertices before they are posed, and what holds each of them.
+// The vertices before they are posed, unless that is known, and what holds each of them.
 void read_shape(File& file, const Source& source, const std::vector<std::uint32_t>& used, std::size_t joints,
                 const Mesh& mesh, RigShape& shape) {
     constexpr std::size_t most_influences = std::size_t{1} << 27;
     const std::vector<Influences> sets = find_influences(source);
-    shape.positions_os = mesh.positions_os;
+    if (shape.positions_os.empty()) {
+        shape.positions_os = mesh.positions_os;
+    }
     shape.first.reserve(used.size() + 1);
     shape.first.push_back(0);
     for (const std::uint32_t vertex : used) {
@@ -216,9 +218,10 @@ void count_coarse(File& file, const Mesh& mesh) {
 
 }  // namespace
 
-Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose) {
+Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUse& uv_use, const Pose& pose,
+                    const std::string& name) {
     // Only triangles cast shadows.
-    Mesh mesh;
+    Mesh mesh{.name = name};
     const int mode = mode_of(primitive);
     if (mode < TINYGLTF_MODE_TRIANGLES) {
         add_note(file.notes, "Points and lines were skipped: only triangles cast shadows.");
@@ -253,7 +256,7 @@ Mesh load_primitive(File& file, const tinygltf::Primitive& primitive, const UvUs
     if (file.data.accessors[static_cast<std::size_t>(named->second)].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
         count_coarse(file, mesh);
     }
-    morph(file, primitive, pose.weights, used, mesh);
+    morph(file, primitive, pose.weights, used, mesh, pose.morphs ? pose.shape : nullptr);
     if (pose.joints != nullptr) {
         RigShape of_this;
         RigShape& shape = pose.shape != nullptr ? *pose.shape : of_this;
