@@ -56,6 +56,7 @@ void placements(Bench& bench);
 void filters(Bench& bench);
 void inlined(Bench& bench);
 void recording(Bench& bench);
+void recording_geometry(Bench& bench);
 void soft(Bench& bench);
 void geometry(Bench& bench);
 

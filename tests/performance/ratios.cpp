@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What shadows cost over the least that any method must pay, as ratios of one run: `make bench` prints the tables of
 // docs/performance.md. Nothing here is asserted. Names of groups (lookups, placements, filters, inline,
-// recording, soft, geometry) select some.
+// recording, recording-geometry, soft, geometry) select some.
 #include "tests/performance/bench.h"
 
 #include <array>
@@ -9,13 +9,15 @@
 
 int main(int count, char** names) try {
     using namespace gn::performance;
-    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 7> groups{{{"lookups", lookups},
-                                                                                   {"placements", placements},
-                                                                                   {"filters", filters},
-                                                                                   {"inline", inlined},
-                                                                                   {"recording", recording},
-                                                                                   {"soft", soft},
-                                                                                   {"geometry", geometry}}};
+    constexpr std::array<std::pair<std::string_view, void (*)(Bench&)>, 8> groups{
+        {{"lookups", lookups},
+         {"placements", placements},
+         {"filters", filters},
+         {"inline", inlined},
+         {"recording", recording},
+         {"recording-geometry", recording_geometry},
+         {"soft", soft},
+         {"geometry", geometry}}};
     Bench bench;
     bench.print_head();
     for (const auto& [name, run] : groups) {
