@@ -103,6 +103,7 @@ void Viewer::frame() {
         return;
     }
     VkCommandBuffer commands = slot.begin();
+    world_->bring(commands, slot_);
     draw_viewports(commands);
     draw_window(commands, size, image);
     slot.submit(image ? window_->rendered(*image) : VK_NULL_HANDLE);

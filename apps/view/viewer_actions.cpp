@@ -206,7 +206,7 @@ void Viewer::set_pose(const std::string& animation, double seconds) {
         for (const Camera& camera : world_->scene.cameras) {
             looked.push_back(text_of(camera));
         }
-        const std::vector<std::string> remarks = world_->pose(device_, animation, seconds);
+        const std::vector<std::string> remarks = world_->pose(animation, seconds);
         message = remarks.empty() ? message : remarks.front();
         for (const std::shared_ptr<Viewport>& viewport : viewports_) {
             const auto through = std::find(looked.begin(), looked.end(), text_of(viewport->camera));

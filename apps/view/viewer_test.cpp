@@ -158,7 +158,7 @@ TEST_F(ViewerTest, TakesThePicturesThatRenderWrites) {
 
 TEST_F(ViewerTest, PlaysAnAnimationAndPauses) {
     const ScratchFolder folder;
-    std::ofstream(folder / "column.gltf") << testing_scene::bent_column();
+    std::ofstream(folder / "column.gltf") << testing_scene::bent_column(true);
     ViewSetup setup = setup_of(folder / "column.gltf", {"hard,resolution=256"});
     setup.window = Size{1000, 1500};
     setup.plays = true;
@@ -170,6 +170,10 @@ TEST_F(ViewerTest, PlaysAnAnimationAndPauses) {
     viewer.speed = 30;
     draw(viewer, 3);
     EXPECT_NEAR(viewer.world().file.time, std::fmod(3.0 / 60 + 1.5, 1.0), 1e-5) << "it begins anew";
+    // Poses go along with their frames: once both frames in flight have room for one, nothing is made.
+    const Counters steady = device().counters();
+    draw(viewer, 6);
+    EXPECT_EQ(device().counters(), steady);
     click(viewer, "animation.plays");
     EXPECT_FALSE(viewer.animates);
     const double paused = viewer.world().file.time;
@@ -188,6 +192,21 @@ TEST_F(ViewerTest, PlaysAnAnimationAndPauses) {
                                                fmt::format("{}", chosen), "-o", folder / "rendered.png"});
     ASSERT_EQ(rendered.status, 0) << rendered.err;
     EXPECT_EQ(file_text(folder / "shots/column-hard-resolution-256.png"), file_text(folder / "rendered.png"));
+
+    // Of shapes that weights pull likewise.
+    viewer.set_pose("lean", 0.25);
+    draw(viewer, 2);
+    viewer.set_pose("lean", 0.75);
+    viewer.take_pictures(folder / "shots", "leaning");
+    viewer.frame();
+    viewer.finish();
+    const CommandResult leaning =
+        run_gnomon({"render", folder / "column.gltf", "-r", "hard,resolution=256", "--antialias", "1", "--size",
+                    "160x90", "--animation", "lean", "--time", "0.75", "-o", folder / "leaning.png"});
+    ASSERT_EQ(leaning.status, 0) << leaning.err;
+    EXPECT_EQ(file_text(folder / "shots/leaning-hard-resolution-256.png"), file_text(folder / "leaning.png"));
+    EXPECT_NE(file_text(folder / "leaning.png"), file_text(folder / "rendered.png"));
+    viewer.set_pose("bend", chosen);
 
     // A session comes back to it, and so does a command line.
     viewer.save_session(folder / "session.toml");

@@ -11,7 +11,8 @@ World::World(Device& device, const std::string& name_, const FileOptions& file_,
       file(file_),
       loaded(reading([&] { return load_asked(name_, file_, window); })),
       as_loaded(scene.lights),
-      gpu(upload_scene(device, scene)) {
+      gpu(upload_scene(device, scene)),
+      staging_{UploadArena(device), UploadArena(device)} {
     say_notes(name, scene.notes);
 }
 
@@ -22,7 +23,7 @@ void World::move_light(const std::string& words) {
     ++lights_version;
 }
 
-std::vector<std::string> World::pose(Device& device, const std::string& animation, double seconds) {
+std::vector<std::string> World::pose(const std::string& animation, double seconds) {
     // Lights as the scene has them move; what a hand changed of them is laid over that again.
     std::vector<std::string> words;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -36,10 +37,14 @@ std::vector<std::string> World::pose(Device& device, const std::string& animatio
     }
     file.animation = animation;
     file.time = seconds;
-    // Frames in flight still read what is written over.
-    vkDeviceWaitIdle(device.vk());
-    refresh_scene(device, gpu);
     return remarks;
+}
+
+void World::bring(VkCommandBuffer commands, std::uint32_t slot) {
+    staging_[slot].reset();
+    record_refresh(commands, gpu, staging_[slot]);
+    // The other frame in flight needs as much room.
+    staging_[1 - slot].match(staging_[slot]);
 }
 
 std::vector<std::string> World::moved_lights() const {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "apps/view/setup.h"
+#include "shadow/frame/refresh.h"
 #include "shadow/scene/rig.h"
-#include "shadow/stages.h"
+
+#include <array>
 
 namespace gn {
 
@@ -24,13 +26,18 @@ struct World {
 
     /// "NAME,key=value,...". Throws Error.
     void move_light(const std::string& words);
-    /// Moves all to a time of an animation, "" to where it is at rest; lights that a hand moved keep what it did. Waits for the
-    /// device. What must be said of it, one sentence each. Throws Error.
-    std::vector<std::string> pose(Device& device, const std::string& animation, double seconds);
+    /// Moves all to a time of an animation, "" to where it is at rest; lights that a hand moved keep what it did. bring() takes
+    /// it to the device. What must be said of it, one sentence each. Throws Error.
+    std::vector<std::string> pose(const std::string& animation, double seconds);
+    /// Records, before a frame in flight (0 or 1, whose last commands have completed), what moved since it was brought before.
+    void bring(VkCommandBuffer commands, std::uint32_t slot);
     /// Such words of all lights that stand otherwise than as loaded.
     [[nodiscard]] std::vector<std::string> moved_lights() const;
     /// Metres from one end of the scene to the other.
     [[nodiscard]] float size() const;
+
+  private:
+    std::array<UploadArena, 2> staging_;  ///< of the frames in flight
 };
 
 }  // namespace gn

@@ -22,9 +22,8 @@ std::vector<SmoothCorner> find_smooth_corners(const Scene& scene, std::span<cons
         const vec3 p = scene.positions_ws[vertex_of(corner)];
         return std::array{p.x, p.y, p.z};
     };
-    std::stable_sort(corners.begin(), corners.end(), [&](const SmoothCorner& a, const SmoothCorner& b) {
-        return place_of(a) < place_of(b);
-    });
+    std::stable_sort(corners.begin(), corners.end(),
+                     [&](const SmoothCorner& a, const SmoothCorner& b) { return place_of(a) < place_of(b); });
     std::unordered_set<std::uint32_t> decided;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         corners[i].begins = i == 0 || place_of(corners[i - 1]) != place_of(corners[i]);

@@ -2,6 +2,7 @@
 // The scene on the GPU: its buffers and the base colour textures.
 #include "gpu/upload.h"
 #include "shadow/frame/frame.h"
+#include "shadow/frame/refresh.h"
 #include "shadow/view/surface.glsl"
 
 #include <algorithm>
@@ -115,57 +116,98 @@ std::vector<Vertices> joined(std::vector<Vertices> ranges) {
     return joined;
 }
 
-void write_vertices(Device& device, const Buffer& buffer, const std::vector<vec3>& values,
-                    const std::vector<Vertices>& ranges) {
-    std::vector<PlacedBytes> placed;
+/// What one buffer of the scene gets.
+struct Written {
+    const Buffer& buffer;
+    std::vector<PlacedBytes> places;
+};
+
+/// All that a refresh writes, with what it points into.
+struct Refresh {
+    std::vector<Written> written;
+    std::vector<std::vector<vec3>> face_normals_ws;
+};
+
+Written vertices_in(const Buffer& buffer, const std::vector<vec3>& values, const std::vector<Vertices>& ranges) {
+    Written written{buffer, {}};
     for (const Vertices& range : ranges) {
-        placed.push_back({range.begin * sizeof(vec3),
-                          std::as_bytes(std::span(values).subspan(range.begin, range.end - range.begin))});
+        written.places.push_back({range.begin * sizeof(vec3),
+                                  std::as_bytes(std::span(values).subspan(range.begin, range.end - range.begin))});
     }
-    write_buffer(device, buffer, placed);
+    return written;
 }
 
-/// Those of the objects' triangles.
-void write_face_normals(Device& device, const Buffer& buffer, const Scene& scene,
-                        std::span<const std::uint32_t> objects) {
-    std::vector<std::vector<vec3>> normals_ws;
-    std::vector<PlacedBytes> placed;
-    for (const std::uint32_t i : objects) {
-        const Object& object = scene.objects[i];
-        normals_ws.push_back(face_normals(scene, object.first_triangle, object.triangle_count));
-        placed.push_back({object.first_triangle * sizeof(vec3), std::as_bytes(std::span(normals_ws.back()))});
-    }
-    write_buffer(device, buffer, placed);
-}
-
-}  // namespace
-
-void refresh_scene(Device& device, SceneGpu& scene) {
-    std::vector<std::uint32_t> moved;
+/// Of the objects whose version is another than what was brought before, which it takes as brought.
+Refresh take_moved(SceneGpu& scene) {
+    Refresh refresh;
     std::vector<Vertices> vertices;
     std::vector<Box> touched_ws;
+    Written faces{scene.face_normals, {}};
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.scene->objects[i];
         SceneGpu::Uploaded& held = scene.objects[i];
         if (object.version == held.version || object.triangle_count == 0) {
             continue;
         }
-        moved.push_back(static_cast<std::uint32_t>(i));
         vertices.push_back(vertices_of(*scene.scene, object));
         touched_ws.push_back(held.bounds_ws);
         touched_ws.push_back(object.bounds_ws);
         held = {object.version, object.bounds_ws};
+        refresh.face_normals_ws.push_back(face_normals(*scene.scene, object.first_triangle, object.triangle_count));
+        faces.places.push_back(
+            {object.first_triangle * sizeof(vec3), std::as_bytes(std::span(refresh.face_normals_ws.back()))});
     }
-    if (moved.empty()) {
-        return;
+    if (vertices.empty()) {
+        return refresh;
     }
     const std::vector<Vertices> ranges = joined(std::move(vertices));
-    write_vertices(device, scene.positions, scene.scene->positions_ws, ranges);
-    write_vertices(device, scene.normals, scene.scene->normals_ws, ranges);
-    write_face_normals(device, scene.face_normals, *scene.scene, moved);
+    refresh.written.push_back(vertices_in(scene.positions, scene.scene->positions_ws, ranges));
+    refresh.written.push_back(vertices_in(scene.normals, scene.scene->normals_ws, ranges));
+    refresh.written.push_back(std::move(faces));
     const std::uint64_t before = scene.version;
     scene.version = next_version();
     scene.moves->add(before, scene.version, std::move(touched_ws));
+    return refresh;
+}
+
+void barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
+             VkAccessFlags2 used) {
+    const VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .srcStageMask = from,
+                                  .srcAccessMask = written,
+                                  .dstStageMask = to,
+                                  .dstAccessMask = used};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &memory};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+}  // namespace
+
+void refresh_scene(Device& device, SceneGpu& scene) {
+    const Refresh refresh = take_moved(scene);
+    for (const Written& written : refresh.written) {
+        write_buffer(device, written.buffer, written.places);
+    }
+}
+
+void record_refresh(VkCommandBuffer commands, SceneGpu& scene, UploadArena& staging) {
+    const Refresh refresh = take_moved(scene);
+    if (refresh.written.empty()) {
+        return;
+    }
+    // Frames before this one may read what is written over, and this one reads what is written.
+    barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    for (const Written& written : refresh.written) {
+        for (const PlacedBytes& placed : written.places) {
+            const UploadedBytes from = staging.put(placed.bytes);
+            const VkBufferCopy region{from.offset, placed.offset, placed.bytes.size()};
+            vkCmdCopyBuffer(commands, from.buffer, written.buffer.vk(), 1, &region);
+        }
+    }
+    barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
 }
 
 SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {

@@ -50,9 +50,10 @@ int animate(GltfText& gltf, const std::vector<float>& times, const std::vector<f
             const char* interpolation = "LINEAR") {
     const int input = gltf.add(times, "SCALAR", 5126, times.size());
     const int output = gltf.add(values, "SCALAR", 5126, values.size());
-    gltf.more += fmt::format(R"("animations":[{{"name":"pull","samplers":[{{"input":{},"output":{},"interpolation":"{}"}}],
+    gltf.more +=
+        fmt::format(R"("animations":[{{"name":"pull","samplers":[{{"input":{},"output":{},"interpolation":"{}"}}],
         "channels":[{{"sampler":0,"target":{{"node":0,"path":"weights"}}}}]}}],)",
-                             input, output, interpolation);
+                    input, output, interpolation);
     return output;
 }
 
@@ -266,9 +267,8 @@ TEST(GltfWeights, ABrokenTargetIsLeftOutAndSaid) {
     expect("holds 1 numbers a vertex", [](GltfText&) { return R"({"POSITION":1})"; });
     expect("overrides element 9 of 4", [](GltfText& gltf) {
         const int nine = gltf.add(std::vector<std::uint16_t>{9}, "SCALAR", 5123, 1);
-        return fmt::format(
-            R"({{"POSITION":{}}})",
-            gltf.add(std::vector<float>(12, 0.0F), "VEC3", 5126, 4, sparse(nine, 2).c_str()));
+        return fmt::format(R"({{"POSITION":{}}})",
+                           gltf.add(std::vector<float>(12, 0.0F), "VEC3", 5126, 4, sparse(nine, 2).c_str()));
     });
     expect("of vertex 2 is not finite", [](GltfText& gltf) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
