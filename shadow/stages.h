@@ -227,7 +227,10 @@ struct LightViews {
     bool tiles = false;
     BufferHandle count;  ///< with tiles: a uint, how many of the views exist, the first ones; invalid: all
     std::vector<std::vector<std::uint32_t>>
-        casters;                    ///< per view: indices into Scene::objects that may cast; empty: all
+        casters;  ///< per view: indices into Scene::objects that may cast; empty: all
+    /// Per view: by how many metres simpler casters may differ from those of the scene, 0: by none; empty: in no view. Of affine
+    /// views that are drawn one by one.
+    std::vector<float> simpler;
     bool crosses = false;           ///< kernels may leave a view's rectangle, and go on in the view that serves the tap
     bool layered = false;           ///< one pass draws all views, each a whole layer of its own
     std::optional<KeptViews> kept;  ///< maps that live over frames; a map part may ignore it and draw everything

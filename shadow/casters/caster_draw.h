@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shadow/casters/raster.h"
+#include "shadow/casters/simpler.h"
 #include "shadow/casters/solids.h"
 #include "shadow/casters/tiles.h"
 
@@ -31,6 +32,9 @@ struct CasterJob {
     bool translucent = false;          ///< the translucent casters alone, whole, instead of the others
     std::uint64_t light_id = 0;
     std::shared_ptr<const Solids> solids;  ///< with casters = auto; null: all faces are drawn
+    /// Where views ask for simpler casters; behind the views then stand as many that see them farther away.
+    std::shared_ptr<const SimplerCasters> simpler;
+    BufferHandle simpler_indices;
 };
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass);
@@ -53,6 +57,8 @@ struct CasterDraw {
     void begin(Recorder& r, const CasterFaces& faces, bool masked) const;
     void draw(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
     void opaque(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;
+    /// Draws those that the view has simpler meshes of; the others are left.
+    [[nodiscard]] std::vector<std::uint32_t> draw_simpler(Recorder& r, std::vector<std::uint32_t> objects) const;
     void both_sided(Recorder& r, std::span<const std::uint32_t> objects) const;
     void ranges(Recorder& r, const CasterFaces& faces, std::span<const DrawRange> ranges) const;
     void opaque_one_by_one(Recorder& r, const CasterFaces& faces, std::span<const std::uint32_t> objects) const;

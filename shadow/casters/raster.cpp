@@ -185,7 +185,7 @@ void CasterDraw::record(Recorder& r) const {
         drawn(r);
         return;
     }
-    const std::vector<std::uint32_t> drawn = objects();
+    const std::vector<std::uint32_t> drawn = draw_simpler(r, objects());
     if (job->kept == Casters::front || job->kept == Casters::back) {
         draw(r, job->kept == Casters::front ? fronts : backs, drawn);
         return;
@@ -217,6 +217,9 @@ void CasterDraw::declare(PassBuilder& builder) const {
     }
     builder.vertices(job->handles.positions);
     builder.indices(job->handles.indices);
+    if (job->simpler != nullptr) {
+        builder.indices(job->simpler_indices);
+    }
     for (const TextureHandle mask : job->masks) {
         builder.sample(mask);
     }
@@ -241,10 +244,35 @@ std::vector<int> masks_of(const Scene& scene) {
     return masks;
 }
 
+/// What views ask for of simpler casters: behind them stand those that see these farther away.
+std::shared_ptr<const SimplerCasters> simpler_for(const FrameInput& input, const CasterPass& pass, LightViews& views) {
+    if (views.simpler.empty() || input.translucent || pass.by_object) {
+        return nullptr;
+    }
+    GN_CHECK(views.kind == ViewKind::affine && !views.layered && !views.tiles && !views.buffer.valid());
+    std::shared_ptr<const SimplerCasters> simpler = simpler_casters(input, views.simpler);
+    for (std::size_t i = 0; simpler != nullptr && i < views.simpler.size(); ++i) {
+        views.views.push_back(set_back(views.views[i], views.simpler[i]));
+    }
+    return simpler;
+}
+
+/// Says what was saved.
+void tell_simpler(const FrameInput& input, const SimplerCasters& simpler) {
+    if (input.late_remarks != nullptr) {
+        input.late_remarks->insert(fmt::format(
+            "into the farthest map of light '{}' {} objects cast as simpler meshes within {:.2g} m of them, of "
+            "{} triangles instead of {}",
+            input.light().name, simpler.objects, simpler.errors.back(), simpler.triangles_after,
+            simpler.triangles_before));
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recipe& recipe, LightViews views,
                                             const CasterPass& pass) {
+    const std::shared_ptr<const SimplerCasters> simpler = simpler_for(input, pass, views);
     const TileLists tile_lists = views.tiles ? add_tile_lists(input, views) : TileLists{};
     const std::vector<int> masks = masks_of(input.scene);
     ShaderInputs inputs = caster_inputs(views, input.handles, !masks.empty(), views.tiles, tile_lists.views);
@@ -261,6 +289,11 @@ std::shared_ptr<const CasterJob> caster_job(const FrameInput& input, const Recip
     job->shader_key = hasher.finish().low;
     job->translucent = input.translucent;
     job->light_id = input.light_id;
+    if (simpler != nullptr) {
+        job->simpler = simpler;
+        job->simpler_indices = input.graph.import(simpler->indices);
+        tell_simpler(input, *simpler);
+    }
     if (recipe.casters == Casters::automatic && !input.translucent && !job->views.tiles) {
         job->solids = solids_of(input);
     }

@@ -73,6 +73,9 @@ class Part {
     /// lookup: what its GLSL takes with a recipe's parameters, always as many; null: `needs`.
     std::vector<std::string_view> (*needs_for)(const Recipe&) = nullptr;
     bool filters = false;  ///< lookup: asks the map's own GLSL for a footprint, which must be filterable
+    /// lookup: asks what a region of the map holds through the view that shows all (GN_WHOLE_CHOICE), so that the map may be one of
+    /// pages.
+    bool searches_pages = false;
     /// map: what it gives: names of textures.
     std::vector<std::string_view> gives;
     bool filterable = false;  ///< map: its own GLSL answers for a footprint

@@ -16,7 +16,7 @@ namespace gn {
 namespace {
 
 // What all passes know: an edge is a point and the spread of what casts it, below 0 for none.
-constexpr const char* head_text = R"(
+constexpr const char* flood_head_text = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 bool counts(vec4 position, vec4 normal) { return position.w > 0.5 && gn_counted(u.whole, position.xyz, normal.xyz); }
 
@@ -153,7 +153,7 @@ TextureHandle add_step(const FrameInput& input, const GnFakePenumbraParams& para
     const auto shader = compute_once(input.prepared, name, hashed(inputs), [&] {
         return expect_text(input.device) + channels_text(1) + include_line("shadow/view/view.glsl") +
                include_line("shadow/receiver/reprojection.glsl") + include_line("shadow/lookup/sssm/sssm.glsl") +
-               include_line("shadow/lookup/fake_penumbra/fake_edge.glsl") + inputs.text() + head_text + text;
+               include_line("shadow/lookup/fake_penumbra/fake_edge.glsl") + inputs.text() + flood_head_text + text;
     });
     input.graph.add_pass(
         name, [&](PassBuilder& pass) { inputs.declare(pass); },

@@ -65,6 +65,7 @@ const Part& lookup_pcss() {
         p.citation = "Fer05";
         p.needs = {"depth", "min-max"};
         p.needs_for = needs_for;
+        p.searches_pages = true;
         p.sides = {
             {"blocker-distance", "m",
              "How far along the light's depth what hides a sample lies before it, on average."},

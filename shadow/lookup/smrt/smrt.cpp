@@ -53,6 +53,7 @@ const Part& lookup_smrt() {
         p.title = "Rays through the shadow map";
         p.citation = "ARHM00";
         p.needs = {"depth", "block-min-max"};
+        p.searches_pages = true;
         p.sides = {
             {"confidence", "", "How near the centre of its texel a sample lies: 1 at it, 0 at the texel's border."},
             {"kernel-reach", "m", "How far around a sample, across the rays, casters change its V."}};

@@ -7,14 +7,17 @@
 // tree_places.glsl, tree_hold.glsl, tree_order.glsl, tree_describe.glsl.
 //
 // Based on: Lefohn, Sengupta, Owens. Resolution-Matched Shadow Maps. ACM Transactions on Graphics 26(4), 2007. [LSO07]
+// Stands on: shadow/placement/jittered (where in a texel the tiles of a frame lie)
 // Departs from it: demands are counted in place where the paper sorts them; tiles have a border for kernels; and over the budget
 // those tiles go first that sharpen the picture least.
 #include "shadow/placement/adaptive/adaptive.h"
 
+#include "shadow/frame/history.h"
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/placement/adaptive/adaptive.glsl"
 #include "shadow/placement/adaptive/kept_tiles.h"
 #include "shadow/placement/adaptive/refine.h"
+#include "shadow/placement/jittered/jittered.glsl"
 #include "shadow/placement/light_views.h"
 #include "shadow/recipe/guard.h"
 
@@ -43,7 +46,7 @@ Atlas atlas_of(const Recipe& recipe, const GnAdaptiveParams& params, const Guard
     Atlas atlas;
     atlas.tile = std::min(tile, recipe.resolution);
     atlas.reach = guard.metres > 0 ? atlas.tile / 8 : 0;
-    atlas.border = static_cast<int>(std::ceil(guard.texels)) + 1 + atlas.reach;
+    atlas.border = static_cast<int>(std::ceil(guard.texels)) + 1 + atlas.reach + (params.jitter > 0 ? 1 : 0);
     atlas.across = recipe.resolution / atlas.tile;
     atlas.tiles = params.maps * atlas.across * atlas.across;
     return atlas;
@@ -178,6 +181,9 @@ GnTreeConstants constants_of(const FrameInput& input, const Recipe& recipe, cons
     t.tile = atlas.tile;
     t.across = atlas.across;
     t.resolution = recipe.resolution;
+    if (input.history != nullptr) {
+        t.jitter = params.jitter * glsl::gn_jitter(static_cast<std::uint32_t>(input.history->frame()));
+    }
     set_demands(t, params, uvec2(input.samples.width, input.samples.height));
     return t;
 }
@@ -326,6 +332,10 @@ ParamTable rows() {
             "moved, which are not drawn again; or only their places in the atlas, all drawn anew, as a measure for "
             "the former.",
             "none", "tiles", "places"),
+        GN_PARAM(
+            GnAdaptiveParams, jitter, real, 0, 1, "texels",
+            "Moves all tiles from frame to frame of a sequence within so many of their texels: visibility=temporal "
+            "gathers what lies between texels, without it edges tremble; no tile is kept."),
     });
 }
 

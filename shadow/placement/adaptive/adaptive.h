@@ -27,6 +27,7 @@ struct GnAdaptiveParams {
     int rounds GN_DEFAULT(5);              ///< asm, qvsm: levels that are tried beyond it
     float threshold GN_DEFAULT(0.00002f);  ///< qvsm: share of the picture that must change in a tile; -1: none
     int kept GN_DEFAULT(GN_ADAPTIVE_NONE);
+    float jitter GN_DEFAULT(0.0f);  ///< texels within which tiles move from frame to frame
 };
 
 /// What the choice of a tile is given.

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Levels in closed form, tiles within their budget, and what they show against one map and against the truth.
 #include "shadow/placement/adaptive/adaptive.glsl"
+
+#include "base/paths.h"
 #include "shadow/frame/history.h"
 #include "shadow/placement/adaptive/tree.h"
 #include "shadow/scene/move.h"
 #include "shadow/show/show.h"
 #include "tests/direct_scenes.h"
 #include "tests/near_edges.h"
+#include "tests/thorough.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -288,11 +292,9 @@ TEST(AdaptiveRendered, EdgesAloneTakeFewerTiles) {
 
 /// The traced hard shadow, but for what a texel's half explains: a wrong sample has samples of the other V within a pixel and a
 /// half, or points of its own plane that see the other.
-TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
-    Scene scene = test::built_in("courtyard");
+void expect_edges_alone(Scene scene, uint width, uint height) {
     scene.lights.resize(1);
-    scene.lights[0].shape.angular_radius = 0;
-    const uint width = 240, height = 135;
+    scene.lights[0].shape.angular_radius = scene.lights[0].shape.radius = 0;
     const auto compared = test::compare(scene, "hard,placement=adaptive,resolution=4096,adaptive.levels=10",
                                         {.width = width, .height = height, .samples = 1});
     const std::vector<float>& technique = compared.visibility().values;
@@ -311,8 +313,30 @@ TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
             ++unexplained;
         }
     }
+    testing::Test::RecordProperty("wrong", static_cast<int>(wrong));
     EXPECT_EQ(unexplained, 0U) << "of " << wrong;
 }
+
+TEST(AdaptiveRendered, WithTilesEnoughOnlyEdgesDifferFromTheTruth) {
+    expect_edges_alone(test::built_in("courtyard"), 240, 135);
+}
+
+/// The same of models made by others, where they lie beside the source tree.
+class TilesOfModels : public testing::TestWithParam<const char*> {};
+
+TEST_P(TilesOfModels, DifferFromTheTruthAtEdgesAlone) {
+    const auto file = data_root() / "../shared/scenes" / GetParam();
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "skipped: " << GetParam() << " is not here";
+    }
+    if (!test::thorough()) {
+        GTEST_SKIP() << "skipped: " << GetParam() << " takes long";
+    }
+    expect_edges_alone(load_scene(file.string()), 480, 270);
+}
+
+INSTANTIATE_TEST_SUITE_P(AdaptiveRendered, TilesOfModels,
+                         testing::Values("kenney_city/kenney_city.glb", "truck_town/truck_town.glb"));
 
 /// A large box and a small one far from it, on a ground that is wider than both.
 Scene two_boxes() {
@@ -399,6 +423,53 @@ TEST_P(TilesKept, AreDrawnWhereACasterMovedAndNowhereElse) {
         drawn_anew += frame > 0 ? redrawn.drawn() : 0;
     }
     EXPECT_LT(drawn, drawn_anew / 2);
+}
+
+/// An atlas that holds what two views ask for and not what three do: squares unused for longest are given away, and what then is drawn
+/// again is what tiles all drawn anew show, to the bit.
+TEST(AdaptiveRendered, SquaresUnusedForLongestAreGivenAway) {
+    const test::ValidationGuard guard;
+    const Scene scene = two_boxes();
+    SceneGpu gpu = upload_scene(device(), scene);
+    std::array<Camera, 3> cameras;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const vec3 at_ws(-5.0F + 5.0F * static_cast<float>(i), 0, i == 1 ? 4 : -2);
+        cameras[i].position_ws = at_ws + vec3(0, 3, 3);
+        cameras[i].forward_ws = glm::normalize(vec3(0, -1, -1));
+    }
+    const auto text = [](int along, const char* kept) {
+        return fmt::format(
+            "hard,placement=adaptive,resolution={},adaptive.maps=1,adaptive.tile=32,adaptive.levels=6,adaptive.kept={}",
+            32 * along, kept);
+    };
+    // What each view asks for beside what the whole scene's does.
+    std::array<int, 3> asked{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Sequence alone(gpu, text(64, "tiles"));
+        static_cast<void>(alone.draw(scene.cameras.front()));
+        static_cast<void>(alone.draw(cameras[(i + 1) % 3]));
+        static_cast<void>(alone.draw(cameras[i]));
+        asked[i] = static_cast<int>(alone.drawn());
+    }
+    const int two = std::max({asked[0] + asked[1], asked[1] + asked[2], asked[2] + asked[0]}) + 12;
+    const int along = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(two))));
+    ASSERT_LT(along * along + 12, asked[0] + asked[1] + asked[2]);
+
+    Sequence kept(gpu, text(along, "tiles")), redrawn(gpu, text(along, "places"));
+    const auto draw = [&](const Camera& camera) {
+        EXPECT_EQ(kept.draw(camera), redrawn.draw(camera));
+        return kept.drawn();
+    };
+    // The whole scene first, so that the map stays; then each view, and the first two again.
+    draw(scene.cameras.front());
+    for (const std::size_t i : {0U, 1U, 2U, 0U, 1U}) {
+        draw(cameras[i]);
+    }
+    EXPECT_EQ(draw(cameras[0]), 0U);
+    EXPECT_GT(draw(cameras[2]), 0U) << "the third has been given away";
+    // Now the second is the oldest.
+    EXPECT_EQ(draw(cameras[0]), 0U);
+    EXPECT_GT(draw(cameras[1]), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(AdaptiveRendered, TilesKept, testing::Values("asm", "tiled", "rmsm"));

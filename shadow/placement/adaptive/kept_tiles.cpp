@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Based on: Fernando, Fernandez, Bala, Greenberg. Adaptive Shadow Maps. SIGGRAPH 2001. [FFBG01]
-// Departs from it: what is unused is given away in the order of its squares, not by age; tiles in which a caster moved are drawn
-// in the frame that shows them.
+// Departs from it: tiles in which a caster moved are drawn in the frame that shows them.
 #include "shadow/placement/adaptive/kept_tiles.h"
 
 #include "shadow/casters/kept_map.h"
@@ -56,6 +55,10 @@ bool shows(const GnLightView& view, const GnLightView& other) {
 std::string why_not_kept(const Recipe& recipe) {
     if (recipe.of<GnAdaptiveParams>("adaptive").kept == GN_ADAPTIVE_NONE || recipe.map == nullptr) {
         return {};
+    }
+    if (recipe.of<GnAdaptiveParams>("adaptive").jitter > 0) {
+        return "adaptive.jitter moves all tiles of placement 'adaptive' in every frame, and all are drawn in every "
+               "frame; adaptive.jitter=0 keeps them";
     }
     if (recipe.map->id != "depth") {
         return fmt::format(
@@ -139,7 +142,7 @@ KeptTiles kept_tiles(const FrameInput& input, const Keeping& keeping, const Ligh
     const TextureDesc desc{.name = name + ", squares",
                            .format = VK_FORMAT_R32_UINT,
                            .width = std::min<std::uint32_t>(tiles, GN_TREE_ROW),
-                           .height = (tiles + GN_TREE_ROW - 1) / GN_TREE_ROW,
+                           .height = 2 * ((tiles + GN_TREE_ROW - 1) / GN_TREE_ROW),
                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT};
     KeptTiles kept;
     kept.redrawn = keeping.redrawn;

@@ -31,6 +31,7 @@ struct GnTreeConstants {
     int start GN_DEFAULT(0);          ///< with refinement: the level that all samples get
     int limit GN_DEFAULT(0);          ///< likewise: the level that rounds have come to
     int threshold GN_DEFAULT(0);      ///< likewise: changes in a tile above which it is refined
+    vec2 jitter GN_DEFAULT(vec2(0));  ///< texels by which every tile shows what lies beside it
     int step GN_DEFAULT(1);           ///< pixels from one that is asked to the next
     uvec2 size GN_DEFAULT(uvec2(0));  ///< of the lattice of pixels that are asked
 };

@@ -12,6 +12,9 @@ void main() {
     }
     uint holds = GN_HOLDS(place);
     imageStore(now, ivec2(place % GN_TREE_ROW, place / GN_TREE_ROW), uvec4(holds));
+    // Squares that got a tile now are used now: they stand first, and go behind all others.
+    uint next = GN_VICTIM((place + int(c.used - c.held)) % t.tiles);
+    imageStore(now, ivec2(place % GN_TREE_ROW, GN_PLACE_ROWS + place / GN_TREE_ROW), uvec4(next));
     GnLightView view = view_of(node_of(max(int(holds) - 1, 0)), place);
     view.rect_ts = GN_STATE(place) == 0u ? vec4(0.0) : view.rect_ts;
     views[place] = view;

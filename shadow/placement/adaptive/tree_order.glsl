@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The squares that are given away, empty ones first, and the order in which tiles are drawn anew: each lane adds some squares up,
-// then all lanes before it.
+// The order in which squares are given away, empty ones first, then those unused for longest, and the order in which tiles are drawn
+// anew: each lane adds some squares up in the order that the frame before left, then all lanes before it.
 #include "shadow/placement/adaptive/tree_places.glsl"
 layout(local_size_x = GN_TREE_LANES) in;
 shared uvec4 of_lane[GN_TREE_LANES];
+
+int place_at(int i) { return u.fresh != 0 ? i : int(GN_BEFORE(GN_PLACE_ROWS * GN_TREE_ROW + i)); }
 
 // One for each that is drawn anew, empty, holds what nothing asks for, or is asked for.
 uvec4 counted(int place) {
@@ -18,8 +20,8 @@ void main() {
     int first = lane * each;
     int end = min(first + each, t.tiles);
     uvec4 sum = uvec4(0u);
-    for (int place = first; place < end; ++place) {
-        sum += counted(place);
+    for (int i = first; i < end; ++i) {
+        sum += counted(place_at(i));
     }
     of_lane[lane] = sum;
     barrier();
@@ -29,13 +31,16 @@ void main() {
         before += i < lane ? of_lane[i] : uvec4(0u);
         all += of_lane[i];
     }
-    for (int place = first; place < end; ++place) {
+    for (int i = first; i < end; ++i) {
+        int place = place_at(i);
         uvec4 own = counted(place);
         GN_DRAW(place) = own.x != 0u ? before.x + 1u : 0u;
         if (own.y != 0u) {
             GN_VICTIM(before.y) = uint(place);
         } else if (own.z != 0u) {
             GN_VICTIM(all.y + before.z) = uint(place);
+        } else {
+            GN_VICTIM(all.y + all.z + before.w) = uint(place);
         }
         before += own;
     }

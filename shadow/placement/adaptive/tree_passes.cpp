@@ -121,13 +121,18 @@ void add_hold(const Tree& tree) {
     hold.constant("int", "boxes", static_cast<int>(kept.boxes_ws.size() / 2))
         .constant("int", "fresh", kept.fresh ? 1 : 0)
         .constant("int", "redrawn", kept.redrawn ? 1 : 0);
-    add_pass(tree, {"adaptive hold", "hold", uvec2(groups_of(tree.constants.tiles, 64), 1), hold, false,
-                    kept.before.valid()
-                        ? "#define GN_BEFORE(i) texelFetch(before, ivec2((i) % GN_TREE_ROW, (i) / GN_TREE_ROW), 0).r\n"
-                        : "#define GN_BEFORE(i) 0u\n"});
+    const char* const defines =
+        kept.before.valid()
+            ? "#define GN_BEFORE(i) texelFetch(before, ivec2((i) % GN_TREE_ROW, (i) / GN_TREE_ROW), 0).r\n"
+            : "#define GN_BEFORE(i) 0u\n";
+    add_pass(tree, {"adaptive hold", "hold", uvec2(groups_of(tree.constants.tiles, 64), 1), hold, false, defines});
     ShaderInputs order;
     order.buffer("buffer", "Places", places_text, tree.places);
-    add_pass(tree, {"adaptive order", "order", uvec2(1), order});
+    if (kept.before.valid()) {
+        order.texture("usampler2D", "before", kept.before);
+    }
+    order.constant("int", "fresh", kept.fresh ? 1 : 0);
+    add_pass(tree, {"adaptive order", "order", uvec2(1), order, false, defines});
 }
 
 /// The views of all squares, and what the next frame finds.

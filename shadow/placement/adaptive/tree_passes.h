@@ -11,9 +11,10 @@ namespace gn::adaptive {
 
 /// Tiles that outlive frames: each stays in its square of the atlas while it is asked for, and longer where nothing else needs it.
 struct KeptTiles {
-    TextureHandle before,
-        now;            ///< R32_UINT, a texel a square, GN_TREE_ROW in a row: 1 + the node whose tile it holds, 0: none
-    bool fresh = true;  ///< no square holds anything
+    /// R32_UINT, a texel a square, GN_TREE_ROW in a row: 1 + the node whose tile it holds, 0: none; behind these rows as many with
+    /// all squares, the one unused for longest first.
+    TextureHandle before, now;
+    bool fresh = true;           ///< no square holds anything
     bool redrawn = false;        ///< what is held is drawn all the same
     std::vector<vec4> boxes_ws;  ///< where casters moved: centre and half sides, one after the other
 };

@@ -4,8 +4,8 @@
 GnLightView view_of(Node node, int tile) {
     GnLightView view = t.maps[node.map];
     float part = exp2(-float(node.level));
-    vec2 middle = (2.0 * vec2(node.cell) + 1.0) * part - 1.0;
     float scale = t.data.texels / (part * float(t.tile));
+    vec2 middle = (2.0 * vec2(node.cell) + 1.0) * part - 1.0 - 2.0 * t.jitter / (float(t.tile) * scale);
 
     // x' = (x - middle w) scale, and back.
     for (int i = 0; i < 4; ++i) {

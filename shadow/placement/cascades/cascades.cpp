@@ -3,7 +3,7 @@
 // Also here: cascade_views.h, cascade_views.cpp (slices and the views around them), stable.cpp (windows of a fixed grid),
 // keep.cpp (maps kept over frames), refusals.cpp (what it cannot do), sdsm.h, sdsm.cpp (splits and views from the samples),
 // its passes sdsm_steps.glsl, sdsm_samples.glsl, sdsm_distances.glsl, sdsm_splits.glsl, sdsm_bounds.glsl, sdsm_views.glsl;
-// tests: stable_test.cpp, warped_test.cpp, far_test.cpp, falloff_test.cpp, mask_test.cpp, sdsm_test.cpp, picture_test.cpp.
+// tests: stable_test.cpp, warped_test.cpp, far_test.cpp, falloff_test.cpp, mask_test.cpp, simpler_test.cpp, sdsm_test.cpp, picture_test.cpp.
 //
 // Based on: Zhang, Sun, Xu, Lun. Parallel-Split Shadow Maps for Large-scale Virtual Environments. VRCIA 2006. [ZSXL06]
 #include "shadow/placement/cascades/cascade_views.h"
@@ -29,7 +29,8 @@ GnCascadesParams params_of(const FrameInput& input, const Recipe& recipe) {
 /// Passes cost nothing on a CPU, where a layered one draws every caster into every layer; GPUs prefer one pass.
 bool layered(const Device& device, const GnCascadesParams& params) {
     const bool wanted = params.passes == GN_PASSES_LAYERED || (params.passes == GN_PASSES_AUTO && !device.info().cpu);
-    return wanted && packed_halvings(params) == 0 && device.has(Feature::layer_from_vertex_shader);
+    return wanted && packed_halvings(params) == 0 && params.simpler == 0 &&
+           device.has(Feature::layer_from_vertex_shader);
 }
 
 /// One slice's receivers: their box, rectangle of least area, or warped map. `near` is the share of the slice's depth that
@@ -121,6 +122,17 @@ void mask_casters(const FrameInput& input, const Recipe& recipe, const GnCascade
     }
 }
 
+/// How far casters of all maps but the first may differ, by the texels of each.
+std::vector<float> errors_of(const GnCascadesParams& params, int resolution, std::span<const GnLightView> views) {
+    std::vector<float> errors;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const double across = glm::length(dvec3(row_of(views[i].cs_from_ws, 0)));
+        const double texel = 2 / across / side_of(params, resolution, i);
+        errors.push_back(i == 0 ? 0.0F : static_cast<float>(static_cast<double>(params.simpler) * texel));
+    }
+    return errors;
+}
+
 LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     const GnCascadesParams params = params_of(input, recipe);
     if (by_samples(params)) {
@@ -154,6 +166,9 @@ LightViews place_cascades(const FrameInput& input, const Recipe& recipe) {
     }
     if (params.mask != 0) {
         mask_casters(input, recipe, params, slices, views);
+    }
+    if (params.simpler > 0) {
+        views.simpler = errors_of(params, recipe.resolution, views.views);
     }
     views.set_data(choice_data(params, range, facing(input.samples.camera, input.light().shape), views.views,
                                guard_of(input, recipe)));
@@ -228,6 +243,11 @@ ParamTable rows() {
                  "Leaves an object out of every map on which its bounds span fewer texels than this, to the longer "
                  "side: far "
                  "maps draw less, and shadows that thin are missing there."),
+        GN_PARAM(
+            GnCascadesParams, simpler, real, 0, 16, "texels",
+            "Draws meshes of fewer triangles into all maps but the first, which differ from those of the scene by so "
+            "many of a map's texels at most and are seen as much farther from the light: faster where meshes are fine, "
+            "edges and contacts are off by that, and what moves is simplified anew in every frame; of stable windows."),
         GN_PARAM(
             GnCascadesParams, mask, boolean, 0, 1, "",
             "Leaves an object out of every map in which it falls onto nothing that the camera sees of the slice: the "

@@ -66,6 +66,7 @@ struct GnCascadesParams {
     int rate GN_DEFAULT(1);               ///< frames between redraws of the last cascade
     int scroll GN_DEFAULT(0);             ///< keep maps over frames and draw only what the window newly shows
     float least_caster GN_DEFAULT(0.0f);  ///< texels: what spans fewer of a map is not drawn into it
+    float simpler GN_DEFAULT(0.0f);       ///< texels by which casters of all maps but the first may differ
     int mask GN_DEFAULT(0);               ///< leave out what casts onto nothing that is seen
 };
 

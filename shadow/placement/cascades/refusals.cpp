@@ -3,6 +3,7 @@
 #include "shadow/geometry/visible_objects.h"
 #include "shadow/placement/cascades/cascade_views.h"
 #include "shadow/placement/cascades/cascades.glsl"
+#include "shadow/scene/simplifier.h"
 
 #include <algorithm>
 #include <bit>
@@ -75,6 +76,33 @@ std::string refuses_mask(const Scene& scene, const Light& light, const Recipe& r
     return {};
 }
 
+/// Meshes are made once, for texels that keep their size.
+std::string refuses_simpler(const Scene& scene, const GnCascadesParams& params) {
+    if (params.simpler == 0) {
+        return {};
+    }
+    if (by_samples(params) || params.fit != GN_FIT_STABLE || params.scroll != 0 || params.rate > 1) {
+        return "cascades.simpler makes meshes for the texels of each map, which keep their size in stable windows that "
+               "are "
+               "drawn in every frame alone; use cascades.fit=stable, scroll=0 and rate=1 with a split other than "
+               "sdsm-minmax and sdsm-histogram, or cascades.simpler=0";
+    }
+    if (params.passes == GN_PASSES_LAYERED) {
+        return "cascades.passes=layered draws the same meshes into all maps, and cascades.simpler others into each; "
+               "use "
+               "cascades.passes=auto or separate";
+    }
+    if (!knows_what_is_seen(scene)) {
+        return "cascades.simpler makes meshes of the scene's triangles, which a renderer that lends its casters keeps "
+               "to "
+               "itself; use cascades.simpler=0";
+    }
+    return simplifier() != nullptr
+               ? ""
+               : "cascades.simpler needs a library that simplifies meshes, and this program links none; use "
+                 "cascades.simpler=0";
+}
+
 }  // namespace
 
 std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe) {
@@ -88,6 +116,9 @@ std::string refuses(const Scene& scene, const Light& light, const Recipe& recipe
         return why;
     }
     if (const std::string why = refuses_mask(scene, light, recipe, params); !why.empty()) {
+        return why;
+    }
+    if (const std::string why = refuses_simpler(scene, params); !why.empty()) {
         return why;
     }
     if (params.least_caster > 0 && by_samples(params)) {

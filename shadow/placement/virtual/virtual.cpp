@@ -7,18 +7,19 @@
 // [KSW21]
 // Departs from it: where the pool is too small all levels are coarsened alike, found in the same frame; a receiver's level follows the
 // shape of its pixel on the map, not its distance.
+// Stands on: shadow/placement/jittered (where in a texel the pages of a frame lie)
 // Also here: virtual_grid.h, virtual_grid.cpp (the faces whose parts are pages), virtual_passes.h, virtual_passes.cpp (which pages there
 // are)
 #include "shadow/placement/virtual/virtual.h"
 
 #include "shadow/casters/pages.h"
 #include "shadow/frame/history.h"
+#include "shadow/placement/jittered/jittered.glsl"
 #include "shadow/placement/light_views.h"
 #include "shadow/placement/virtual/virtual_passes.h"
 #include "shadow/recipe/guard.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -42,7 +43,8 @@ int page_side(const Recipe& recipe) {
 
 /// Texels around a page that belong to its neighbours: what the bias moves a receiver by, and a kernel that is small against a page.
 int border_of(const Recipe& recipe, const Guard& guard, int side) {
-    const float moved = 1 + std::abs(recipe.bias.normal) + std::abs(recipe.bias.view);
+    const float jitter = recipe.of<GnVirtualParams>("virtual").jitter > 0 ? 1.0F : 0.0F;
+    const float moved = 1 + jitter + std::abs(recipe.bias.normal) + std::abs(recipe.bias.view);
     const float kernel = guard.texels <= static_cast<float>(side) / 16 ? guard.texels : 0;
     return std::clamp(static_cast<int>(std::ceil(std::max(moved, kernel))), 2, side / 8);
 }
@@ -76,7 +78,8 @@ void keep_pages(PageJob& job, LightViews& views, const FrameInput& input, const 
     const bool follows = before != nullptr && pair.before != nullptr && !fresh_pool && same_faces(*before, job.grid);
     const std::optional<std::vector<vec4>> touched =
         follows ? virtual_pages::touched_parts(input, *before) : std::nullopt;
-    job.fresh = !touched.has_value();
+    job.fresh = !touched.has_value() || job.params.jitter > 0;
+    job.jitter = job.params.jitter * glsl::gn_jitter(static_cast<std::uint32_t>(input.history->frame()));
     job.touched = touched.value_or(std::vector<vec4>());
     job.frame = static_cast<std::uint32_t>(input.history->frame()) + 1;
     input.history->leave(desc.name, job.grid);
@@ -130,8 +133,16 @@ LightViews place_virtual(const FrameInput& input, const Recipe& recipe) {
     return views;
 }
 
-/// Lookups that ask for the nearest of a region by gn_pcss_region alone, which knows of maps in parts.
-constexpr std::array<std::string_view, 2> whole_askers{"pcss", "smrt"};
+/// The lookups that work on pages although they ask what a region holds: 'a', 'b'.
+std::string lookups_that_search_pages() {
+    std::vector<std::string> ids;
+    for (const Part* const part : all_parts()) {
+        if (part->searches_pages) {
+            ids.push_back(fmt::format("'{}'", part->id));
+        }
+    }
+    return fmt::format("{}", fmt::join(ids, ", "));
+}
 
 std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
     if (recipe.resolution < 4 * least_page) {
@@ -149,14 +160,12 @@ std::string refuses(const Scene&, const Light&, const Recipe& recipe) {
             "front or back",
             name_of(recipe.casters));
     }
-    const bool asks_whole = recipe.lookup != nullptr && std::find(whole_askers.begin(), whole_askers.end(),
-                                                                  recipe.lookup->id) != whole_askers.end();
     for (const std::string_view need : recipe.lookup != nullptr ? needs_of(recipe) : std::vector<std::string_view>()) {
-        if (need != "depth" && !asks_whole) {
+        if (need != "depth" && !recipe.lookup->searches_pages) {
             return fmt::format(
                 "lookup '{}' reads '{}' of one whole view, and placement 'virtual' spreads it over pages; 'hard' and "
-                "'pcf' read depths alone, '{}' ask the page that shows all",
-                recipe.lookup->id, need, fmt::join(whole_askers, "' and '"));
+                "'pcf' read depths alone, and the page that shows all is asked by {}",
+                recipe.lookup->id, need, lookups_that_search_pages());
         }
     }
     return {};
@@ -188,6 +197,11 @@ ParamTable rows() {
                  "there and takes pages from everything else."),
         GN_PARAM(GnVirtualParams, drawn, integer, 0, 65536, "pages",
                  "Most pages that a frame draws; others are there later, and coarser ones serve till then. 0: all."),
+        GN_PARAM(
+            GnVirtualParams, jitter, real, 0, 1, "texels",
+            "Moves all pages from frame to frame of a sequence within so many of their texels: visibility=temporal "
+            "gathers what lies between texels, without it edges tremble; no page is kept, all are drawn in every "
+            "frame."),
     });
 }
 

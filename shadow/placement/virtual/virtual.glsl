@@ -49,11 +49,11 @@ GN_FN ivec2 gn_virtual_page_at(vec2 face_ts, int level) {
     return clamp(ivec2(floor(face_ts * float(side))), ivec2(0), ivec2(side - 1));
 }
 
-// The view of a page: of its face's the part around the page, `border` texels of `texels` wider on each side.
-GN_FN GnLightView gn_virtual_view(GnLightView face, int level, ivec2 page, float texels, float border) {
+// The view of a page: of its face's the part around the page, `border` texels of `texels` wider on each side, moved by so many.
+GN_FN GnLightView gn_virtual_view(GnLightView face, int level, ivec2 page, float texels, float border, vec2 moved) {
     float across = float(1 << level);
-    vec2 centre = (2.0f * vec2(page) + 1.0f) / across - 1.0f;
     float scale = across * (texels - 2.0f * border) / texels;
+    vec2 centre = (2.0f * vec2(page) + 1.0f) / across - 1.0f - 2.0f * moved / (texels * scale);
     GnLightView view = face;
     for (int column = 0; column < 4; ++column) {
         vec4 c = face.cs_from_ws[column];

@@ -18,6 +18,7 @@ struct GnVirtualParams {
     float texels GN_DEFAULT(1.0f);
     float stretch GN_DEFAULT(4.0f);
     int drawn GN_DEFAULT(0);
+    float jitter GN_DEFAULT(0.0f);  ///< texels within which pages move from frame to frame
 };
 
 struct GnVirtualData {

@@ -302,7 +302,7 @@ void main() {
     imageStore(now, ivec2(i, 2), uvec4(used));
     int at = max(int(slot) - 1, 0);
     ivec2 page = gn_virtual_page(GN_TAG(i));
-    GnLightView view = gn_virtual_view(faces[gn_virtual_face(u.data.faces, at)], gn_virtual_level(u.data.faces, at), page, u.side, u.border);
+    GnLightView view = gn_virtual_view(faces[gn_virtual_face(u.data.faces, at)], gn_virtual_level(u.data.faces, at), page, u.side, u.border, u.jitter);
     view.rect_ts = slot == 0u ? vec4(0.0) : vec4(float(i % u.along), float(i / u.along), 1.0, 1.0) * (u.side / view.resolution);
     views[i] = view;
 }
@@ -402,6 +402,7 @@ ShaderInputs search_inputs(const PageJob& job, const Buffers& b) {
         .constant("int", "along", job.along)
         .constant("uint", "frame", job.frame)
         .constant("float", "side", static_cast<float>(job.page))
+        .constant("vec2", "jitter", job.jitter)
         .constant("float", "border", static_cast<float>(job.border))
         .constant("float", "beyond", static_cast<float>(job.border + 1) / job.data.page);
     return inputs;

@@ -17,6 +17,7 @@ struct PageJob {
     int page = 128;             ///< texels along a side, with its border
     int border = 2;             ///< texels
     int along = 1;              ///< pages along a side of the pool
+    vec2 jitter{0};             ///< texels that pages are moved by
     float reach = 0;            ///< texels beyond a receiver whose pages are asked for, too
     std::uint32_t frame = 1;
     TextureHandle before, now;  ///< R32_UINT, a column a page: slot + 1 (0: none), tag, frame of the latest use

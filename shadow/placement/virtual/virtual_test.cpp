@@ -11,6 +11,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -69,7 +70,7 @@ TEST(Virtual, PagesArePartsOfTheirFace) {
     face.cs_from_ws = glm::perspective(1.2F, 1.0F, 0.1F, 10.0F);
     face.ws_from_cs = glm::inverse(face.cs_from_ws);
     const ivec2 page(5, 2);
-    const GnLightView view = glsl::gn_virtual_view(face, 3, page, 128, 4);
+    const GnLightView view = glsl::gn_virtual_view(face, 3, page, 128, 4, vec2(0));
     for (const vec3 p_ws : {vec3(0.1F, -0.2F, -1), vec3(1, 0.5F, -4), vec3(-0.3F, 0.1F, -0.7F)}) {
         const vec4 p_face = face.cs_from_ws * vec4(p_ws, 1);
         const vec2 in_page = 8.0F * (0.5F * vec2(p_face) / p_face.w + 0.5F) - vec2(page);
@@ -80,6 +81,20 @@ TEST(Virtual, PagesArePartsOfTheirFace) {
         const vec4 back = view.ws_from_cs * p_cs;
         EXPECT_NEAR(glm::distance(vec3(back) / back.w, p_ws), 0, 1e-4);
     }
+}
+
+/// Lookups that ask what a region holds say themselves whether they can ask pages; the others are refused, and those named that can.
+TEST(Virtual, LookupsSayWhetherTheySearchPages) {
+    const Scene& scene = test::built_in("slab");
+    const auto why = [&](const char* text) {
+        const Recipe recipe = load_recipe(text);
+        return recipe.placement->refuses(scene, scene.lights[0], recipe);
+    };
+    for (const char* served : {"hard,placement=virtual", "pcss,placement=virtual", "smrt,placement=virtual"}) {
+        EXPECT_EQ(why(served), "") << served;
+    }
+    const std::string refused = why("backprojection,placement=virtual");
+    EXPECT_NE(refused.find("'pcss', 'smrt'"), std::string::npos) << refused;
 }
 
 /// Frames of a recipe with a history of their own.
@@ -157,38 +172,107 @@ TEST_P(PagesRendered, AreDrawnWhereACasterMovedAndNowhereElse) {
 
 INSTANTIATE_TEST_SUITE_P(VirtualRendered, PagesRendered, testing::Values("sun", "spot", "point"));
 
-/// A camera that jumps about, with one page a frame: what is not there yet is as dark as in the coarser page that serves, which is
-/// never lighter than what is deep in shadow.
+/// Samples around which V is 0 all over.
+std::vector<std::size_t> deep_in_shadow(const std::vector<float>& v) {
+    std::vector<std::size_t> deep;
+    for (uint y = 3; y + 3 < height; ++y) {
+        for (uint x = 3; x + 3 < width; ++x) {
+            bool dark = true;
+            for (uint dy = y - 3; dy <= y + 3 && dark; dy += 3) {
+                for (uint dx = x - 3; dx <= x + 3 && dark; dx += 3) {
+                    dark = v[dy * width + dx] == 0;
+                }
+            }
+            if (dark) {
+                deep.push_back(y * width + x);
+            }
+        }
+    }
+    return deep;
+}
+
+/// A camera that jumps about, with one page a frame, in a pool that holds all pages and in one that is too small for the path: what is
+/// not there yet, or no longer, is as dark as in the coarser page that serves, which is never lighter than what is deep in shadow.
 TEST(VirtualRendered, AMissingPageIsNeverLight) {
     const test::ValidationGuard guard;
     Scene scene = two_boxes(by_hand::sun({0.3F, -1, 0.2F}));
     SceneGpu gpu = upload_scene(test::device(), scene);
-    Sequence frames(gpu, "virtual,lookup=hard,resolution=1024,virtual.page=64,virtual.drawn=1");
-    Sequence coarse(gpu, "virtual,lookup=hard,resolution=1024,virtual.page=64,virtual.levels=1");
-    std::size_t deep = 0;
-    for (int k = 0; k < 5; ++k) {
-        Camera camera = scene.cameras.front();
-        camera.position_ws = vec3(-3.0F + 0.7F * static_cast<float>(k), 5.0F - static_cast<float>(k) * 0.5F, 4);
-        const std::vector<float> few = frames.draw(camera);
-        EXPECT_EQ(frames.drawn(), 1U);
-        const std::vector<float> least = coarse.draw(camera);
-        // Samples around which the coarsest page is dark all over are deep in shadow.
-        for (uint y = 3; y + 3 < height; ++y) {
-            for (uint x = 3; x + 3 < width; ++x) {
-                bool dark = true;
-                for (uint dy = y - 3; dy <= y + 3 && dark; dy += 3) {
-                    for (uint dx = x - 3; dx <= x + 3 && dark; dx += 3) {
-                        dark = least[dy * width + dx] == 0;
-                    }
-                }
-                if (dark) {
-                    ++deep;
-                    ASSERT_EQ(few[y * width + x], 0) << "frame " << k << " at " << x << ", " << y;
-                }
+    const std::string text = "virtual,lookup=hard,virtual.page=64,";
+    Sequence coarse(gpu, text + "resolution=1024,virtual.levels=1");
+    for (const auto& [pool, most] : {std::pair{"resolution=1024,virtual.drawn=1", 1U},
+                                     std::pair{"resolution=512,virtual.texels=4,virtual.drawn=24", 24U}}) {
+        Sequence frames(gpu, text + pool);
+        std::size_t deep = 0;
+        for (int k = 0; k < 8; ++k) {
+            Camera camera = scene.cameras.front();
+            camera.position_ws =
+                vec3(-3.0F + 0.7F * static_cast<float>(k % 5), 5.0F - static_cast<float>(k % 5) * 0.5F, 4);
+            const std::vector<float> few = frames.draw(camera);
+            EXPECT_LE(frames.drawn(), most);
+            EXPECT_GT(frames.drawn(), 0U);
+            for (const std::size_t i : deep_in_shadow(coarse.draw(camera))) {
+                ++deep;
+                ASSERT_EQ(few[i], 0) << pool << " frame " << k << " at " << i % width << ", " << i / width;
             }
         }
+        EXPECT_GT(deep, 20U);
     }
-    EXPECT_GT(deep, 20U);
+}
+
+/// Cameras near the ground, one to the left, one before and one to the right.
+std::array<Camera, 3> apart() {
+    std::array<Camera, 3> cameras;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const vec3 at_ws(-5.0F + 5.0F * static_cast<float>(i), 0, i == 1 ? 4 : -2);
+        cameras[i].position_ws = at_ws + vec3(0, 3, 3);
+        cameras[i].forward_ws = glm::normalize(vec3(0, -1, -1));
+    }
+    return cameras;
+}
+
+/// A pool that holds what two views ask for and not what three do: pages unused for longest are given away. What then is drawn again
+/// shows what frames show that know of no others.
+TEST(VirtualRendered, PagesUnusedForLongestAreGivenAway) {
+    const test::ValidationGuard guard;
+    const Scene scene = two_boxes(by_hand::sun({0.3F, -1, 0.2F}));
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const std::array<Camera, 3> cameras = apart();
+    const auto text = [](int along) {
+        return fmt::format("virtual,lookup=hard,resolution={},virtual.page=64,virtual.texels=4", 64 * along);
+    };
+    // What each view asks for beside what the whole scene's does.
+    std::array<int, 3> asked{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Sequence alone(gpu, text(32));
+        static_cast<void>(alone.draw());
+        static_cast<void>(alone.draw(cameras[i]));
+        asked[i] = static_cast<int>(alone.drawn());
+    }
+    const int two = std::max({asked[0] + asked[1], asked[1] + asked[2], asked[2] + asked[0]}) + 12;
+    const int along = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(two))));
+    ASSERT_GE(along, 8);
+    ASSERT_LT(along * along + 12, asked[0] + asked[1] + asked[2]);
+
+    // The whole scene first, so that the faces stay; then each view, and the first two again.
+    Sequence frames(gpu, text(along));
+    static_cast<void>(frames.draw());
+    std::array<std::vector<float>, 3> first;
+    for (const std::size_t i : {0U, 1U, 2U, 0U, 1U}) {
+        first[i] = frames.draw(cameras[i]);
+    }
+    EXPECT_EQ(frames.draw(cameras[0]), first[0]);
+    EXPECT_EQ(frames.drawn(), 0U);
+    static_cast<void>(frames.draw(cameras[2]));
+    EXPECT_GT(frames.drawn(), 0U) << "the third has been given away";
+    // Now the second is the oldest.
+    EXPECT_EQ(frames.draw(cameras[0]), first[0]);
+    EXPECT_EQ(frames.drawn(), 0U);
+    const std::vector<float> again = frames.draw(cameras[1]);
+    EXPECT_GT(frames.drawn(), 0U);
+    Sequence fresh(gpu, text(along));
+    static_cast<void>(fresh.draw());
+    // Pages stand elsewhere in the pool, where positions round otherwise.
+    EXPECT_LE(differing(again, fresh.draw(cameras[1])), 3U);
 }
 
 /// Where the pool suffices no texel covers more than a pixel; where it does not, all are coarser and the budget holds.
@@ -208,6 +292,53 @@ TEST(VirtualRendered, TexelsAreAtMostAPixelWhereThePoolSuffices) {
     EXPECT_LT(share_above_one("virtual,lookup=hard,resolution=2048,virtual.page=64"), 0.02);
     EXPECT_GT(share_above_one("virtual,lookup=hard,resolution=64"), 0.9);
 }
+
+/// A board high over a floor, its edge over x = 0, under a wide sun.
+Scene wide_penumbra() {
+    by_hand::SceneBuilder b;
+    GnLight sun = by_hand::sun({0.02F, -1, 0.03F});
+    sun.angular_radius = 0.25F;
+    b.ground(8).box({-6, 4, -6}, {0, 4.1F, 6}).light(sun);
+    return b.scene();
+}
+
+class PagesSearched : public testing::TestWithParam<const char*> {};
+
+/// Penumbrae are wider than pages here, and to one camera the board's edge is on no page but the coarsest: what hides the light from a
+/// receiver is found all the same. V is on average the traced one, and as near to it as over one whole map of as fine texels.
+TEST_P(PagesSearched, FindCastersOnOtherPagesAndLevels) {
+    const test::ValidationGuard guard;
+    Scene scene = wide_penumbra();
+    for (const bool beside : {false, true}) {
+        // Under the board and the penumbra, or beside both what it covers and where it is.
+        scene.cameras = {{.position_ws = vec3(beside ? 0.9F : 0.2F, beside ? 1.0F : 2.5F, 0.8F),
+                          .forward_ws = glm::normalize(vec3(0, -1, -0.5F)),
+                          .yfov = 0.8F}};
+        const auto shadowed = [&](const std::string& placement) {
+            const auto c = test::compare(scene, std::string(GetParam()) + placement,
+                                         {.width = width, .height = height, .samples = 64});
+            double sum = 0, squares = 0;
+            int count = 0;
+            for (std::size_t i = 0; i < c.truth.counted.size(); ++i) {
+                const float traced = c.truth.visibility[i];
+                if (c.truth.counted[i] != 0 && traced > 0.6F && traced < 0.97F) {
+                    const auto wrong = static_cast<double>(c.visibility().values[i] - traced);
+                    sum += wrong;
+                    squares += wrong * wrong;
+                    ++count;
+                }
+            }
+            EXPECT_GT(count, 300) << placement;
+            return dvec2(sum / count, std::sqrt(squares / count));
+        };
+        const dvec2 pages = shadowed(",placement=virtual,resolution=2048,virtual.page=64,virtual.texels=6");
+        const dvec2 whole = shadowed(",placement=fit,resolution=2048");
+        EXPECT_NEAR(pages.x, 0, 0.05) << GetParam() << " beside " << beside << ", whole " << whole.x;
+        EXPECT_LT(pages.y, whole.y + 0.03) << GetParam() << " beside " << beside;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(VirtualRendered, PagesSearched, testing::Values("pcss", "smrt"));
 
 /// Receivers near the borders of pages, of faces and of what the light shines on are served: the traced shadow, to a texel.
 TEST(VirtualRendered, ServesEveryKindOfLight) {
