@@ -23,9 +23,17 @@ GN_FN ivec2 gn_pyramid_parts(int square, int edge, int finer_edge) {
 }  // namespace gn::glsl
 #else
 
-// Whether any texel from `first` to `last` lies at `bound` or farther, or where not `farther` before it. `pyramid` begins with
-// texels; the rectangle lies in its layer.
-bool gn_pyramid_any(sampler2DArray pyramid, ivec2 first, ivec2 last, int layer, float bound, bool farther) {
+// Whether any texel from `first` to `last` lies at `bounds.x` or farther (x), and whether any lies before `bounds.y` (y), in one walk.
+// `pyramid` begins with texels; the rectangle lies in its layer.
+bvec2 gn_pyramid_beyond(sampler2DArray pyramid, ivec2 first, ivec2 last, int layer, vec2 bounds) {
+    // Corners tell most of where an edge crosses the rectangle.
+    bvec2 found = bvec2(false);
+    for (int k = 0; k < 4; ++k) {
+        ivec2 corner = ivec2((k & 1) == 0 ? first.x : last.x, (k & 2) == 0 ? first.y : last.y);
+        vec2 range = texelFetch(pyramid, ivec3(corner, layer), 0).xy;
+        found = bvec2(found.x || range.y >= bounds.x, found.y || range.x < bounds.y);
+    }
+
     ivec2 side = textureSize(pyramid, 0).xy;
     int top = gn_pyramid_level(first, last, textureQueryLevels(pyramid));
     ivec2 top_edge = max(side >> top, ivec2(1)) - 1;
@@ -34,24 +42,25 @@ bool gn_pyramid_any(sampler2DArray pyramid, ivec2 first, ivec2 last, int layer, 
     ivec2 root = root_first;
     int level = top;
     ivec2 square = root;
-    while (true) {
-        // What lies beyond the bound is found where the square lies in the rectangle, and looked for where it is cut.
+    while (!all(found)) {
+        // What lies beyond a bound is found where the square lies in the rectangle, and looked for where it is cut.
         ivec2 edge = max(side >> level, ivec2(1)) - 1;
         ivec2 low = square << level;
         ivec2 high = ivec2(square.x == edge.x ? side.x : (square.x + 1) << level, square.y == edge.y ? side.y : (square.y + 1) << level) - 1;
         bool meets = all(lessThanEqual(low, last)) && all(greaterThanEqual(high, first));
         vec2 range = texelFetch(pyramid, ivec3(square, layer), level).xy;
-        if (meets && (farther ? range.y >= bound : range.x < bound)) {
-            if (level == 0 || (all(greaterThanEqual(low, first)) && all(lessThanEqual(high, last)))) {
-                return true;
-            }
+        bvec2 beyond = bvec2(meets && !found.x && range.y >= bounds.x, meets && !found.y && range.x < bounds.y);
+        bool whole = level == 0 || (all(greaterThanEqual(low, first)) && all(lessThanEqual(high, last)));
+        if (any(beyond) && !whole) {
             --level;
             square *= 2;
             continue;
         }
+        found = bvec2(found.x || beyond.x, found.y || beyond.y);
+
         // On to the next part of the same square, or to what follows that.
-        bool found = false;
-        while (level < top && !found) {
+        bool moved = false;
+        while (level < top && !moved) {
             ivec2 coarser_edge = max(side >> (level + 1), ivec2(1)) - 1;
             ivec2 parent = min(square >> 1, coarser_edge);
             edge = max(side >> level, ivec2(1)) - 1;
@@ -59,27 +68,27 @@ bool gn_pyramid_any(sampler2DArray pyramid, ivec2 first, ivec2 last, int layer, 
             ivec2 up = gn_pyramid_parts(parent.y, coarser_edge.y, edge.y);
             if (square.x < across.y) {
                 ++square.x;
-                found = true;
+                moved = true;
             } else if (square.y < up.y) {
                 square = ivec2(across.x, square.y + 1);
-                found = true;
+                moved = true;
             } else {
                 square = parent;
                 ++level;
             }
         }
-        if (!found) {
+        if (!moved) {
             if (root.x < root_last.x) {
                 ++root.x;
             } else if (root.y < root_last.y) {
                 root = ivec2(root_first.x, root.y + 1);
             } else {
-                return false;
+                break;
             }
             square = root;
         }
     }
-    return false;
+    return found;
 }
 #endif
 
