@@ -149,8 +149,8 @@ std::vector<std::uint32_t> CasterDraw::draw_simpler(Recorder& r, std::vector<std
               false);
         r.index_buffer(job->simpler_indices);
         // The view that stands behind all others sees them farther away by as much as they may lie nearer to the light.
-        r.push_value(CasterPush{static_cast<int>(view + job->views.views.size() / 2), 1.0F, 0.0F,
-                                static_cast<int>(index), 0});
+        r.push_value(
+            CasterPush{static_cast<int>(view + job->views.views.size() / 2), 1.0F, 0.0F, static_cast<int>(index), 0});
         r.draw_indexed(range->index_count, 1, range->first_index);
     }
     return others;

@@ -19,7 +19,7 @@ struct SimplerCasters {
     std::vector<float> errors;  ///< metres, one a level
     /// Of each level a range an object; empty where edge collapses within the error leave out less than an eighth of its triangles.
     std::vector<std::vector<DrawRange>> ranges;
-    std::size_t objects = 0;                                 ///< that have a simpler mesh on the last level
+    std::size_t objects = 0;                                ///< that have a simpler mesh on the last level
     std::size_t triangles_before = 0, triangles_after = 0;  ///< of these
     /// Of an error's level, an object's range; null where it is drawn as it is.
     [[nodiscard]] const DrawRange* find(float error, std::uint32_t object) const;

@@ -108,8 +108,8 @@ TEST(CascadesRendered, FarMapsDrawFewTriangles) {
 /// Each map has a refusal of its own where sizes of texels change, or where one pass draws all.
 TEST(CascadesRendered, SimplerMeshesAskForStableWindows) {
     const Scene scene = rings();
-    for (const char* other : {"cascades.fit=fitted", "cascades.split=sdsm-minmax", "cascades.scroll=1",
-                              "cascades.passes=layered"}) {
+    for (const char* other :
+         {"cascades.fit=fitted", "cascades.split=sdsm-minmax", "cascades.scroll=1", "cascades.passes=layered"}) {
         const Recipe cascades = load_recipe(recipe + "1," + other);
         EXPECT_NE(cascades.placement->refuses(scene, scene.lights[0], cascades), "") << other;
     }
