@@ -135,8 +135,8 @@ TEST(TemporalRendered, AStillViewConvergesToTheTracedShadow) {
 TEST(TemporalRendered, AStillViewConvergesOverTilesAndPages) {
     const test::ValidationGuard guard;
     Scene scene = loose_triangles();
-    for (const char* placement :
-         {"adaptive,adaptive.maps=1,resolution=128,adaptive.jitter=1", "virtual,resolution=128,virtual.jitter=1"}) {
+    for (const char* placement : {"adaptive,adaptive.maps=1,adaptive.levels=5,resolution=128,adaptive.jitter=1",
+                                  "virtual,resolution=128,virtual.jitter=1"}) {
         const Figures hard = after_frames(scene, fmt::format("hard,placement={}", placement), 24, &Errors::mismatch);
         EXPECT_GT(hard.least, 0.005) << placement;
         EXPECT_LE(2 * hard.gathered, hard.least) << placement;
@@ -266,14 +266,13 @@ TEST_P(NoStaleValue, WhereACasterJumps) {
     EXPECT_LT(wrong, all / 4) << "of " << all << ": the frame's own map is as new";
 }
 
-INSTANTIATE_TEST_SUITE_P(TemporalRendered, NoStaleValue,
-                         testing::Values("hard,placement=jittered,resolution=64",
-                                         "pcf,placement=jittered,resolution=64",
-                                         "pcss,placement=jittered,resolution=64",
-                                         "hard,placement=virtual,resolution=256",
-                                         "hard,placement=virtual,resolution=256,virtual.jitter=1",
-                                         "hard,placement=adaptive,adaptive.maps=1,resolution=256,adaptive.kept=tiles",
-                                         "hard,placement=adaptive,adaptive.maps=1,resolution=256,adaptive.jitter=1"));
+INSTANTIATE_TEST_SUITE_P(
+    TemporalRendered, NoStaleValue,
+    testing::Values("hard,placement=jittered,resolution=64", "pcf,placement=jittered,resolution=64",
+                    "pcss,placement=jittered,resolution=64", "hard,placement=virtual,resolution=256",
+                    "hard,placement=virtual,resolution=256,virtual.jitter=1",
+                    "hard,placement=adaptive,adaptive.maps=1,adaptive.levels=5,resolution=256,adaptive.kept=tiles",
+                    "hard,placement=adaptive,adaptive.maps=1,adaptive.levels=5,resolution=256,adaptive.jitter=1"));
 
 /// What did not move keeps what frames knew of it: only samples in reach of the mover begin anew.
 TEST(TemporalRendered, ShadowsOfWhatRestsAreKept) {
