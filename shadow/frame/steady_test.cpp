@@ -109,7 +109,8 @@ TEST_P(Steady, FramesCreateNothing) {
 INSTANTIATE_TEST_SUITE_P(Kept, Steady, testing::Values("cascades,cascades.scroll=1"),
                          [](const auto&) { return std::string("cascades_scroll"); });
 
-INSTANTIATE_TEST_SUITE_P(Recipes, Steady, testing::ValuesIn(test::drawn_recipes()), [](const auto& test) {
+/// With sanitizers, which meet every recipe elsewhere, one of sixteen: what they see here is the frame after the frame.
+INSTANTIATE_TEST_SUITE_P(Recipes, Steady, testing::ValuesIn(test::picked(test::drawn_recipes())), [](const auto& test) {
     std::string name = test.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
