@@ -15,7 +15,7 @@ RELEASE := build/release
 GNOMON := $(RELEASE)/gnomon
 # Drivers compile shaders on their first use; these caches make the second run fast.
 CACHES = MESA_SHADER_CACHE_DIR=$(CURDIR)/$(RELEASE)/mesa-cache GNOMON_CACHE=$(CURDIR)/$(RELEASE)/gnomon-cache
-DEMO := -r soft -r pcf -r hard -r volumes --samples 128 --size 800x450
+DEMO := -r soft -r pcf -r hard -r volumes --samples 128 --size 640x360
 
 packages:
 	@tools/install_packages
