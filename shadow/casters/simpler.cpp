@@ -19,32 +19,16 @@ constexpr float told_of_error = 0.5F;
 constexpr std::size_t least_indices = 12;
 
 /// An object by itself, its vertices welded.
-struct OwnMesh {
-    std::vector<std::uint32_t> vertices;  ///< of the scene, ascending
-    std::vector<vec3> positions_ws;
+OwnMesh object_mesh(const Scene& scene, const Object& object, std::span<const std::uint32_t> welded) {
     std::vector<std::uint32_t> indices;
-};
-
-OwnMesh own_mesh(const Scene& scene, const Object& object, std::span<const std::uint32_t> welded) {
-    OwnMesh mesh;
     for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t) {
         const uvec3 corners = scene.triangles[t];
         const uvec3 joined(welded[corners.x], welded[corners.y], welded[corners.z]);
         if (joined.x != joined.y && joined.y != joined.z && joined.z != joined.x) {
-            mesh.indices.insert(mesh.indices.end(), {joined.x, joined.y, joined.z});
+            indices.insert(indices.end(), {joined.x, joined.y, joined.z});
         }
     }
-    mesh.vertices = mesh.indices;
-    std::sort(mesh.vertices.begin(), mesh.vertices.end());
-    mesh.vertices.erase(std::unique(mesh.vertices.begin(), mesh.vertices.end()), mesh.vertices.end());
-    for (std::uint32_t& index : mesh.indices) {
-        index = static_cast<std::uint32_t>(std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(), index) -
-                                           mesh.vertices.begin());
-    }
-    for (const std::uint32_t vertex : mesh.vertices) {
-        mesh.positions_ws.push_back(scene.positions_ws[vertex]);
-    }
-    return mesh;
+    return own_mesh(scene.positions_ws, std::move(indices));
 }
 
 /// Its simpler mesh, of the scene's vertices; empty where hardly anything would be saved.
@@ -76,7 +60,7 @@ SimplerCasters make_simpler(Device& device, const Scene& scene, std::span<const 
         if (object.triangle_count < least_simplified || caster_class(scene, i, nullptr) != CasterClass::opaque) {
             continue;
         }
-        const OwnMesh mesh = own_mesh(scene, object, welded);
+        const OwnMesh mesh = object_mesh(scene, object, welded);
         for (std::size_t level = 0; level < errors.size(); ++level) {
             const std::vector<std::uint32_t> left =
                 simplified(mesh, object.bounds_ws, object.triangle_count, errors[level]);

@@ -25,23 +25,14 @@ struct Solid {
 
 Solid cut_out(const ProxySource& source, std::span<const std::uint32_t> welded,
               std::span<const std::uint32_t> members) {
-    Solid solid;
-    std::vector<std::uint32_t> used;
+    std::vector<std::uint32_t> indices;
     for (const std::uint32_t t : members) {
         for (int i = 0; i < 3; ++i) {
-            used.push_back(welded[source.triangles[t][i]]);
+            indices.push_back(welded[source.triangles[t][i]]);
         }
     }
-    solid.indices = used;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (std::uint32_t& index : solid.indices) {
-        index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
-    }
-    for (const std::uint32_t vertex : used) {
-        solid.positions_ws.push_back(source.positions_ws[vertex]);
-    }
-    return solid;
+    OwnMesh own = own_mesh(source.positions_ws, std::move(indices));
+    return {std::move(own.positions_ws), std::move(own.indices)};
 }
 
 std::vector<uvec3> triangles_of(std::span<const std::uint32_t> indices) {

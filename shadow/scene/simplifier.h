@@ -10,6 +10,15 @@
 
 namespace gn {
 
+/// Some triangles of a scene by themselves.
+struct OwnMesh {
+    std::vector<std::uint32_t> vertices;  ///< of the scene, ascending
+    std::vector<vec3> positions_ws;       ///< of each of these
+    std::vector<std::uint32_t> indices;   ///< three a triangle, into them
+};
+/// Of triangles given as three indices each into the scene's positions.
+OwnMesh own_mesh(std::span<const vec3> positions_ws, std::vector<std::uint32_t> indices);
+
 /// What edge collapses left of a mesh.
 struct Simplified {
     std::vector<std::uint32_t> indices;  ///< three a triangle, of the same vertices
