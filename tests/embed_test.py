@@ -61,7 +61,7 @@ def build_examples(build, folder):
         shutil.rmtree(source, ignore_errors=True)
         shutil.copytree(ROOT / "examples" / name, source)
         run("cmake", "-G", "Ninja", "-S", source, "-B", binary, f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
-            "-DCMAKE_BUILD_TYPE=Release")
+            "-DCMAKE_CXX_FLAGS=-Og", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16")
         run("cmake", "--build", binary)
 
 
