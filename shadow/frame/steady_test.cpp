@@ -23,7 +23,7 @@ void PrintTo(const Counters& c, std::ostream* out) {
 namespace {
 
 constexpr uint width = 48, height = 32;
-constexpr int warm = 2, steady = test::sanitized ? 1 : 3;
+constexpr int warm = 2, steady = test::sanitized ? 1 : 2;  // each slot once
 
 /// Threads of this process.
 int threads() {
