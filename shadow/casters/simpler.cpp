@@ -4,6 +4,7 @@
 
 #include "gpu/upload.h"
 #include "shadow/casters/caster_draw.h"
+#include "shadow/casters/caster_pipeline.h"
 #include "shadow/geometry/edges.h"
 #include "shadow/scene/casting.h"
 #include "shadow/scene/simplifier.h"
