@@ -13,7 +13,7 @@ struct BarrierSide {
 };
 inline constexpr BarrierSide all_writes{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT};
 inline constexpr BarrierSide all_uses{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+                                      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 inline constexpr BarrierSide host_reads{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
 
 /// What commands before it wrote, as `written` says, is there for those behind it, as `used` says.
