@@ -126,4 +126,18 @@ void expect_random_meshes_as_traced(unsigned kind, const std::function<Recipe(un
     EXPECT_GT(shadowed, 400U * seeds);
 }
 
+Scene hinge(float angle, bool closed_by_a_wall) {
+    SceneBuilder b;
+    b.ground(10, -1);
+    const vec3 low(0, 0.5F, -1.5F), high(0, 0.5F, 1.5F), out(2.5F, 0.5F, 0.1F),
+        raised(2.5F, 0.5F + 2.5F * angle, -0.1F);
+    std::vector<uvec3> triangles{{0, 1, 2}, {1, 0, 3}};
+    if (closed_by_a_wall) {
+        triangles.push_back({0, 1, 4});
+    }
+    b.mesh({low, high, out, raised, vec3(-1, -0.5F, 0)}, triangles);
+    b.camera({-2.5F, 3.2F, 0.6F}, {0.4F, 0.5F, 0});
+    return b.light(sun({0.2F, -1, 0.1F})).light(point({-1, 4, 1})).light(point({3, 2.5F, -1})).scene();
+}
+
 }  // namespace gn::by_hand

@@ -21,4 +21,9 @@ Scene random_meshes(unsigned kind, unsigned seed);
 void expect_random_meshes_as_traced(unsigned kind, const std::function<Recipe(unsigned seed)>& recipe_of,
                                     const std::function<std::string(unsigned seed)>& described);
 
+/// Two sheets that share an edge at so small an angle that near it the farther one shows, whose front faces the viewer, before the back
+/// of the nearer one: view samples push backs away by steps of the rasterizer. What shows lies in the shadow of what does not. Under a
+/// sun and two lamps; `closed_by_a_wall`: a third sheet stands on the edge.
+Scene hinge(float angle, bool closed_by_a_wall = false);
+
 }  // namespace gn::by_hand

@@ -26,22 +26,6 @@ TEST_P(VolumesRandom, equal_the_traced_hard_shadow_away_from_edges) {
         mode_of);
 }
 
-/// Two sheets that share an edge at so small an angle that near it the farther one shows, whose front faces the viewer, before the back
-/// of the nearer one: view samples push backs away by steps of the rasterizer. What shows lies in the shadow of what does not.
-Scene hinge(float angle, bool closed_by_a_wall) {
-    SceneBuilder b;
-    b.ground(10, -1);
-    const vec3 low(0, 0.5F, -1.5F), high(0, 0.5F, 1.5F), out(2.5F, 0.5F, 0.1F),
-        raised(2.5F, 0.5F + 2.5F * angle, -0.1F);
-    std::vector<uvec3> triangles{{0, 1, 2}, {1, 0, 3}};
-    if (closed_by_a_wall) {
-        triangles.push_back({0, 1, 4});
-    }
-    b.mesh({low, high, out, raised, vec3(-1, -0.5F, 0)}, triangles);
-    b.camera({-2.5F, 3.2F, 0.6F}, {0.4F, 0.5F, 0});
-    return b.light(sun({0.2F, -1, 0.1F})).light(point({-1, 4, 1})).light(point({3, 2.5F, -1})).scene();
-}
-
 TEST(VolumesHinge, what_shows_behind_the_back_of_a_sheet_is_in_its_shadow) {
     for (const auto& [angle, wall] : {std::pair{0.001F, false}, {0.001F, true}, {0.01F, false}, {-0.001F, false}}) {
         const Scene scene = hinge(angle, wall);
