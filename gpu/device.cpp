@@ -4,6 +4,7 @@
 #include "base/paths.h"
 #include "gpu/features.h"
 #include "gpu/instance.h"
+#include "gpu/memory_barrier.h"
 #include "gpu/memory_pool.h"
 #include "gpu/pipeline_cache.h"
 #include "gpu/presenting.h"
@@ -113,19 +114,9 @@ class VulkanDevice final : public Device {
         const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
         GN_VK(vkBeginCommandBuffer(commands_, &begin));
-        const auto everything = [&](VkPipelineStageFlags2 stage, VkAccessFlags2 access) {
-            const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                           .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                           .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                           .dstStageMask = stage,
-                                           .dstAccessMask = access};
-            const VkDependencyInfo dependency{
-                .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-            vkCmdPipelineBarrier2(commands_, &dependency);
-        };
-        everything(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+        memory_barrier(commands_, all_writes, all_uses);
         record(commands_);
-        everything(VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+        memory_barrier(commands_, all_writes, host_reads);
         GN_VK(vkEndCommandBuffer(commands_));
 
         const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,

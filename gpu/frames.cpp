@@ -2,6 +2,7 @@
 #include "gpu/frames.h"
 
 #include "gpu/graph_account.h"
+#include "gpu/memory_barrier.h"
 #include "gpu/pass_writer.h"
 
 #include <algorithm>
@@ -173,7 +174,7 @@ void write_answers(const GraphDeclaration& declaration, const FramePlan& planned
     if (answers.empty()) {
         return;
     }
-    global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    memory_barrier(commands, all_writes, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
     for (const Answer& answer : answers) {
         if (!planned.plan.buffers[answer.buffer].used) {
             continue;
@@ -184,7 +185,7 @@ void write_answers(const GraphDeclaration& declaration, const FramePlan& planned
         vkCmdCopyBuffer(commands, planned.resources->buffer(answer.buffer), target.buffer, 1, &region);
         slot.waiting.push_back({{target.mapped, bytes}, answer.receive});
     }
-    global_barrier(commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    memory_barrier(commands, all_writes, host_reads);
 }
 
 }  // namespace
@@ -212,8 +213,7 @@ const std::vector<std::vector<VkImageLayout>>& Frames::write(
     } waiting{slot};
 
     // Frames share their transients, so that each begins after all that was recorded before.
-    global_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    memory_barrier(commands, all_writes, all_uses);
     if (stamps) {
         slot.timestamps.begin(commands, most_turns(declaration, planned.plan));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/graph_executor.h"
 
+#include "gpu/memory_barrier.h"
+
 #include <chrono>
 
 namespace gn {
@@ -107,12 +109,11 @@ void GraphExecutor::begin() {
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     GN_VK(vkBeginCommandBuffer(commands_, &info));
-    global_barrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    memory_barrier(commands_, all_writes, all_uses);
 }
 
 void GraphExecutor::end_and_wait() {
-    global_barrier(commands_, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    memory_barrier(commands_, all_writes, host_reads);
     GN_VK(vkEndCommandBuffer(commands_));
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                            .commandBuffer = commands_};

@@ -3,17 +3,6 @@
 
 namespace gn {
 
-void global_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 stage, VkAccessFlags2 access) {
-    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                   .dstStageMask = stage,
-                                   .dstAccessMask = access};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 PassWriter::PassWriter(Device& device, const GraphDeclaration& declaration, GraphResources& resources,
                        UploadArena& arena)
     : declaration_(declaration), resources_(resources), recorder_(device, declaration, resources, arena) {

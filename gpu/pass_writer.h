@@ -25,9 +25,6 @@ class PassWriter {
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_;
 };
 
-/// Everything written before is there for `access` in `stage`.
-void global_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 stage, VkAccessFlags2 access);
-
 /// A pair of timestamps a pass; answers are milliseconds.
 class PassTimestamps {
   public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a pass may touch, and the order of its commands outside rendering.
+#include "gpu/memory_barrier.h"
 #include "gpu/recorder.h"
 
 #include <algorithm>
@@ -121,14 +122,7 @@ void GraphRecorder::order(const std::vector<Touch>& touches) {
         });
     };
     if (std::any_of(touches.begin(), touches.end(), conflicts)) {
-        const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                       .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                       .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                       .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                       .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-        const VkDependencyInfo dependency{
-            .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-        vkCmdPipelineBarrier2(commands_, &dependency);
+        memory_barrier(commands_, all_writes, all_uses);
         pending_.clear();
     }
     pending_.insert(pending_.end(), touches.begin(), touches.end());

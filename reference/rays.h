@@ -13,6 +13,8 @@
 
 namespace gn {
 
+inline constexpr std::size_t tile_size = 256;  ///< view samples that a thread takes at a time
+
 /// Where a ray towards the light ends: a little beyond it, see reference/occluders.h.
 inline float ray_end(float distance, float largest_origin) {
     return distance + static_cast<float>(ulps_at(hit_ulps, static_cast<double>(distance + largest_origin)));

@@ -11,8 +11,6 @@
 namespace gn {
 namespace {
 
-constexpr std::size_t rim_tile_size = 256;  ///< view samples that a thread takes at a time
-
 /// Points of [-1,1]^2 in an order whose every beginning covers the square evenly.
 std::array<vec2, rim_rays> spread_points() {
     std::array<vec2, rim_rays> points{};
@@ -87,9 +85,9 @@ std::vector<std::uint8_t> find_rims(const Occluders& occluders, std::span<const 
     std::atomic<std::size_t> next_tile = 0;
     std::atomic<bool> stop = false;
     const auto work = [&](bool /*first*/) {
-        for (std::size_t tile = next_tile++; tile * rim_tile_size < rims.size() && !stop; tile = next_tile++) {
-            const std::size_t end = std::min((tile + 1) * rim_tile_size, rims.size());
-            for (std::size_t i = tile * rim_tile_size; i < end && !stop; ++i) {
+        for (std::size_t tile = next_tile++; tile * tile_size < rims.size() && !stop; tile = next_tile++) {
+            const std::size_t end = std::min((tile + 1) * tile_size, rims.size());
+            for (std::size_t i = tile * tile_size; i < end && !stop; ++i) {
                 stop = stop || (asked_to_stop != nullptr && asked_to_stop());
                 rims[i] =
                     has_rim(occluders, blockers, position_ws[i], normal_ws[i], around[i], light.shape, points) ? 1 : 0;

@@ -30,7 +30,6 @@ namespace {
 
 constexpr int most_samples = 1 << 20;
 constexpr std::uint32_t most_batches = 8;
-constexpr std::size_t tile_size = 256;  ///< view samples that a thread takes at a time
 
 /// How many samples, in how many independent scrambles.
 struct Plan {

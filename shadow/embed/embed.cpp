@@ -2,6 +2,7 @@
 #include "shadow/embed/embed.h"
 
 #include "gpu/glsl.h"
+#include "gpu/memory_barrier.h"
 #include "gpu/reload.h"
 #include "shadow/embed/lent_receivers.h"
 #include "shadow/embed/state.h"
@@ -35,17 +36,6 @@ void demand_recipe(const BakedShaders& baked, const std::string& text) {
         std::none_of(known.begin(), known.end(), [&](const auto& k) { return identifier(k) == identifier(name); })) {
         fail("recipe '{}' is not in {}; this makes it: {}", text, baked.folder().string(), baked.command_with(text));
     }
-}
-
-void memory_barrier(VkCommandBuffer commands) {
-    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
-    vkCmdPipelineBarrier2(commands, &dependency);
 }
 
 /// Where the shaders come from. Throws Error where there is neither a baked folder nor a compiler.
@@ -207,7 +197,7 @@ Foreseen Shadows::State::begin(FrameGraph& graph, const Frame& frame) {
 std::vector<std::string> Shadows::State::record(VkCommandBuffer commands, const Frame& frame) {
     FrameGraph graph(*device);
     Foreseen declared = begin(graph, frame);
-    memory_barrier(commands);
+    memory_barrier(commands, all_writes, all_uses);
     try {
         graph.record(frames, commands);
     } catch (const MissingShader& missing) {

@@ -25,10 +25,13 @@ struct GnOccluder {
 
 // One unit of float precision at a magnitude of 1.
 const float gn_ulp = 1.0f / 8388608.0f;
-// How far a view sample may be from its own surface, and what rounding leaves of an edge of it, in units of its coordinates.
-const float gn_own_ulps = 64.0f;
+// What rounding leaves of an edge of a sample's own surface, and what may seem to rise above a sample's plane that does not: 12 as
+// gn_plane_rounding counts (5.5 the sample's, 5 the reading's, 1.5 the truth's), and a third more where the sample's own triangle is the
+// larger one.
 const float gn_near_ulps = 4.0f;
 const float gn_below_ulps = 16.0f;
+// How far away the truth looks for the surface that a sample lies on (reference/occluders.h, seat_ulps), in units of the largest coordinate.
+const float gn_seat_ulps = 64.0f;
 
 // What the rounding of coordinates of such magnitudes comes to along a unit vector: it moves no plane of that normal farther.
 GN_FN float gn_rounding(float count, vec3 n, vec3 magnitude) {
@@ -61,12 +64,55 @@ GN_FN GnOccluderEdges gn_occluder_edges(GnOccluder t, vec3 p_ws) {
     return edges;
 }
 
-// What the sample's own surface, and all that lies on or below it, cannot hide: `t` is left out for it, whatever the light.
-GN_FN bool gn_occluder_own(GnOccluder t, vec3 n_t, vec3 p_ws, vec3 n_ws, vec3 magnitude) {
-    float height = abs(dot(n_t, p_ws - t.a));
-    float own = abs(dot(n_t, n_ws)) > 0.99f ? gn_own_ulps : gn_near_ulps;
+// A triangle's plane as floats tell it.
+struct GnPlane {
+    vec3 normal;  // across the triangle, as long as twice its area
+    float size;   // that length
+    vec3 wide;    // by axis, the sum of the two products whose difference the normal is
+};
+GN_FN GnPlane gn_plane(vec3 a_ws, vec3 b_ws, vec3 c_ws) {
+    vec3 b = b_ws - a_ws;
+    vec3 c = c_ws - a_ws;
+    GnPlane plane;
+    plane.normal = cross(b, c);
+    plane.size = length(plane.normal);
+    b = abs(b);
+    c = abs(c);
+    plane.wide = vec3(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
+    return plane;
+}
+
+// How high above a plane that holds it a sample may seem to lie, times the plane's size. Let e = gn_ulp / 2 be what one rounding makes of
+// 1, n the plane's unit normal, d = p - a, w = wide / size, |.| by axis, m the largest coordinates of p and of the corners. What
+// errs, at most and to first order:
+//   our view's sample, p = q - n (n . (q - a)) with n rounded once (shadow/view/gbuffer.glsl): n by e |n|, q - a by e |d|, the
+//   product and its sums by 3 e |n|.|d|, p itself by e |p|:                              e (5 |n|.|d| + |n|.m)
+//   the normal here: the edges by e, each product by 3 e, their difference by e |n|:     e (3 w.|d| + |n|.|d|)
+//   d and its product with the normal:                                                   e (4 |n|.|d|)
+//   sheets that were meant to be one plane, as the truth has it (plane_ulps = 1.5):      e (3 |n|.m)
+// In all e (4 |n|.m + 10 |n|.|d| + 3 w.|d|): 2 units at a small triangle, 12 at one as wide as it is far, and what the normal of a
+// sliver is worth.
+GN_FN float gn_plane_rounding(GnPlane plane, vec3 d, vec3 magnitude) {
+    return gn_ulp * (dot(abs(plane.normal), 2.0f * magnitude + 5.0f * abs(d)) + 1.5f * dot(plane.wide, abs(d)));
+}
+
+// Whether the plane holds a sample, d from the triangle's first corner, so that the triangle hides nothing from it.
+GN_FN bool gn_plane_holds(GnPlane plane, vec3 d, vec3 magnitude) {
+    return abs(dot(plane.normal, d)) <= gn_plane_rounding(plane, d, magnitude);
+}
+// Whether the plane runs along the sample's, so that the sample may be meant to lie in it.
+GN_FN bool gn_plane_along(GnPlane plane, vec3 n_ws) {
+    return abs(dot(plane.normal, n_ws)) > 0.99f * plane.size;
+}
+// Likewise, and so near that the plane may be the sample's own, where no other is known that holds it.
+GN_FN bool gn_plane_near(GnPlane plane, vec3 d, vec3 n_ws, vec3 magnitude) {
+    return gn_plane_along(plane, n_ws) && abs(dot(plane.normal, d)) <= gn_rounding(gn_seat_ulps, plane.normal, magnitude);
+}
+
+// Whether no corner rises above the sample's plane: what lies wholly on or below its surface hides nothing from it.
+GN_FN bool gn_occluder_below(GnOccluder t, vec3 p_ws, vec3 n_ws, vec3 magnitude) {
     float above = max(max(dot(n_ws, t.a - p_ws), dot(n_ws, t.b - p_ws)), dot(n_ws, t.c - p_ws));
-    return height <= gn_rounding(own, n_t, magnitude) || above <= gn_rounding(gn_below_ulps, n_ws, magnitude);
+    return above <= gn_rounding(gn_below_ulps, n_ws, magnitude);
 }
 
 // Where rays of a sample start: a hair above its surface, so that rounding sinks none under it.
@@ -79,18 +125,22 @@ struct GnOcclusion {
     GnOccluderEdges edges;
     vec3 n;       // the triangle's unit normal; null where it has none
     float height; // of the rays' origin over the triangle's plane
-    bool hides;   // whether it can hide anything
+    bool able;    // whether it can hide anything, from a sample that is not meant to lie on it
+    bool holds;   // whether its plane holds the sample
+    bool hides;   // whether it can hide anything, asked alone: what is so near that it may be the sample's own surface cannot
 };
 GN_FN GnOcclusion gn_occlusion(GnOccluder t, vec3 p_ws, vec3 n_ws) {
     vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
-    vec3 normal = cross(t.b - t.a, t.c - t.a);
-    float size = length(normal);
+    GnPlane plane = gn_plane(t.a, t.b, t.c);
     vec3 magnitude = max(max(abs(p_ws), abs(t.a)), max(abs(t.b), abs(t.c)));
     GnOcclusion o;
     o.edges = gn_occluder_edges(t, origin_ws);
-    o.n = size > 0.0f ? normal / size : vec3(0.0f);
+    o.n = plane.size > 0.0f ? plane.normal / plane.size : vec3(0.0f);
     o.height = dot(o.n, origin_ws - t.a);
-    o.hides = size > 0.0f && !gn_occluder_own(t, o.n, p_ws, n_ws, magnitude) && !(t.one_sided && o.height > 0.0f);
+    o.holds = gn_plane_holds(plane, p_ws - t.a, magnitude);
+    o.able = plane.size > 0.0f && !o.holds && !gn_occluder_below(t, p_ws, n_ws, magnitude) &&
+             !(t.one_sided && o.height > 0.0f);
+    o.hides = o.able && !gn_plane_near(plane, p_ws - t.a, n_ws, magnitude);
     return o;
 }
 
@@ -120,12 +170,36 @@ GN_FN vec3 gn_towards(vec3 origin_ws, vec4 light_ws) {
     return vec3(light_ws) - origin_ws * light_ws.w;
 }
 
-// Whether the triangle hides the light from the sample; a mask is taken for whole.
+// Whether the triangle hides the light from the sample, asked alone; a mask is taken for whole.
 GN_FN bool gn_occluder_hides(GnOccluder t, vec3 p_ws, vec3 n_ws, vec4 light_ws) {
     GnOcclusion o = gn_occlusion(t, p_ws, n_ws);
     vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
     return o.hides && gn_plane_between(o, t, origin_ws, light_ws) &&
            gn_within(gn_hit_shares(o.edges, gn_towards(origin_ws, light_ws)));
+}
+
+// What each triangle says of a sample and a light; what all have said tells whether the light is hidden. A sample does not know its
+// triangle. Beside the border of one the rasterizer may give it another's plane: it lies a step of the rasterizer beyond the edge, and
+// below the triangle that begins there by that step's share of the angle between both. The truth then takes the other one for its
+// surface, the nearest along the normal; so a triangle above a sample that no surface holds is the sample's own, and hides nothing.
+const uint gn_says_hidden = 1u;  // it hides the light
+const uint gn_says_over = 2u;    // it would, if the sample lay on another surface
+const uint gn_says_holds = 4u;   // the sample lies on it
+GN_FN bool gn_hidden(uint said) {
+    return (said & gn_says_hidden) != 0u || (said & (gn_says_over | gn_says_holds)) == (gn_says_over | gn_says_holds);
+}
+GN_FN uint gn_occluder_says(GnOccluder t, vec3 p_ws, vec3 n_ws, vec4 light_ws) {
+    GnOcclusion o = gn_occlusion(t, p_ws, n_ws);
+    vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
+
+    // The truth's question for the sample's surface: along the normal, so near, and within the triangle.
+    vec3 magnitude = max(max(abs(p_ws), abs(t.a)), max(abs(t.b), abs(t.c)));
+    float reach = gn_seat_ulps * gn_ulp * max(max(magnitude.x, magnitude.y), magnitude.z);
+    float facing = abs(dot(o.n, n_ws));
+    bool seat = facing > 0.99f && abs(dot(o.n, p_ws - t.a)) <= reach * facing && gn_within(gn_hit_shares(o.edges, n_ws));
+    bool hides = o.able && gn_plane_between(o, t, origin_ws, light_ws) &&
+                 gn_within(gn_hit_shares(o.edges, gn_towards(origin_ws, light_ws)));
+    return (seat && o.holds ? gn_says_holds : 0u) | (hides ? (seat ? gn_says_over : gn_says_hidden) : 0u);
 }
 
 #ifdef __cplusplus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene on the GPU: its buffers and the base colour textures.
+#include "gpu/memory_barrier.h"
 #include "gpu/upload.h"
 #include "shadow/frame/frame.h"
 #include "shadow/frame/refresh.h"
@@ -170,18 +171,6 @@ Refresh take_moved(SceneGpu& scene) {
     return refresh;
 }
 
-void barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
-             VkAccessFlags2 used) {
-    const VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                  .srcStageMask = from,
-                                  .srcAccessMask = written,
-                                  .dstStageMask = to,
-                                  .dstAccessMask = used};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &memory};
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 }  // namespace
 
 void refresh_scene(Device& device, SceneGpu& scene) {
@@ -197,8 +186,8 @@ void record_refresh(VkCommandBuffer commands, SceneGpu& scene, UploadArena& stag
         return;
     }
     // Frames before this one may read what is written over, and this one reads what is written.
-    barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
-            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    constexpr BarrierSide copies{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    memory_barrier(commands, all_writes, copies);
     for (const Written& written : refresh.written) {
         for (const PlacedBytes& placed : written.places) {
             const UploadedBytes from = staging.put(placed.bytes);
@@ -206,8 +195,7 @@ void record_refresh(VkCommandBuffer commands, SceneGpu& scene, UploadArena& stag
             vkCmdCopyBuffer(commands, from.buffer, written.buffer.vk(), 1, &region);
         }
     }
-    barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+    memory_barrier(commands, copies, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT});
 }
 
 SceneHandles import_scene(FrameGraph& graph, SceneGpu& scene) {

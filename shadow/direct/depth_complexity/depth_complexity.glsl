@@ -68,15 +68,10 @@ GN_FN int gn_depth_crossings(vec2 a, vec2 b, vec2 q) {
 // of the light is seen from both with opposite sides; a triangle whose plane holds the receiver hides nothing from it. No other
 // is left out: edges that bound it would be silhouettes from nowhere else. `owner` and `form` as volumes have them.
 GN_FN int gn_depth_multiplicity(vec3 a_ws, vec3 b_ws, vec3 c_ws, uint owner, uint form, vec3 p_ws, vec3 n_ws) {
-    vec3 normal = cross(b_ws - a_ws, c_ws - a_ws);
-    float size = length(normal);
-    if (!(size > 0.0f)) {
-        return 0;
-    }
-    vec3 n = normal / size;
+    GnPlane plane = gn_plane(a_ws, b_ws, c_ws);
     vec3 magnitude = max(max(abs(p_ws), abs(a_ws)), max(abs(b_ws), abs(c_ws)));
-    float own = abs(dot(n, n_ws)) > 0.99f ? gn_own_ulps : gn_near_ulps;
-    if (abs(dot(n, p_ws - a_ws)) <= gn_rounding(own, n, magnitude)) {
+    vec3 d = p_ws - a_ws;
+    if (!(plane.size > 0.0f) || gn_plane_holds(plane, d, magnitude) || gn_plane_near(plane, d, n_ws, magnitude)) {
         return 0;
     }
     int side = -gn_volumes_side(a_ws, b_ws, c_ws, vec4(p_ws, 1.0f));

@@ -27,7 +27,7 @@ void main() {
     }
     vec4 p_ws = gbuffer_position_texel(pixel);
     bool counted = p_ws.w > 0.0 && gn_counted(u.whole, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
-    bool lit = hidden[pixel.y * imageSize(visibility).x + pixel.x] == 0u;
+    bool lit = !gn_hidden(hidden[pixel.y * imageSize(visibility).x + pixel.x]);
     imageStore(visibility, pixel, vec4(counted && lit ? 1.0 : 0.0));
 }
 )";
@@ -40,7 +40,8 @@ Visibility add_resolve_hidden(const FrameInput& input, BufferHandle hidden) {
     inputs.image("r32f", "writeonly", "image2D", "visibility", result.image);
     inputs.constant("GnLight", "whole", input.whole_light().shape);
     const auto shader = compute_once(input.prepared, "irregular-z.comp", hashed(inputs), [&] {
-        return include_line("shadow/scene/light.h") + inputs.text() + resolve_text;
+        return include_line("shadow/scene/light.h") + include_line("shadow/geometry/occluder.glsl") + inputs.text() +
+               resolve_text;
     });
     add_pixel_pass(input.graph, "irregular-z: resolve", inputs, shader, input.samples.width, input.samples.height);
     return result;

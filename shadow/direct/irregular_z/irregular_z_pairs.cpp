@@ -15,13 +15,14 @@ namespace {
 
 constexpr const char* hides_text = R"(
 void gn_pair(uint sample_index, vec3 p_ws, vec3 n_ws, uint triangle, GnOccluder t, bool masked) {
-    bool hides = gn_occluder_hides(t, p_ws, n_ws, u.light_ws);
-    if (masked && hides) {
+    uint said = gn_occluder_says(t, p_ws, n_ws, u.light_ws);
+    if (masked && (said & ~gn_says_holds) != 0u) {
         vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
-        hides = gn_mask_solid(triangle, gn_hit_shares(gn_occluder_edges(t, origin_ws), gn_towards(origin_ws, u.light_ws)));
+        bool solid = gn_mask_solid(triangle, gn_hit_shares(gn_occluder_edges(t, origin_ws), gn_towards(origin_ws, u.light_ws)));
+        said = solid ? said : said & gn_says_holds;
     }
-    if (hides) {
-        atomicOr(hidden[sample_index], 1u);
+    if (said != 0u) {
+        atomicOr(hidden[sample_index], said);
     }
 }
 )";

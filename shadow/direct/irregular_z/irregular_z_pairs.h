@@ -31,8 +31,8 @@ TexelLists add_sample_pairs(const FrameInput& input, const Recipe& recipe, const
 TextureHandle add_list_lengths(const FrameInput& input, const Recipe& recipe, const LightViews& views,
                                const TexelLists& lists, const std::string& name);
 
-/// What the light's centre is hidden from: a uint a view sample, by row and column, 0 where nothing hides it; and the lists of
-/// samples (or triangles) by which it was found.
+/// What the light's centre is hidden from: a uint a view sample, by row and column, which gn_hidden reads
+/// (shadow/geometry/occluder.glsl); and the lists of samples (or triangles) by which it was found.
 struct HiddenSamples {
     BufferHandle hidden;
     TexelLists lists;

@@ -61,7 +61,7 @@ void main() {
     uint sample_index = uint(pixel.y * imageSize(visibility).x + pixel.x);
     vec4 p_ws = gbuffer_position_texel(pixel);
     bool counted = p_ws.w > 0.5 && gn_counted(u.whole, p_ws.xyz, gbuffer_normal_texel(pixel).xyz);
-    float v = counted ? gn_soft_irregular_light(hidden[sample_index] != 0u, edge_sums[2u * sample_index]) : 0.0;
+    float v = counted ? gn_soft_irregular_light(gn_hidden(hidden[sample_index]), edge_sums[2u * sample_index]) : 0.0;
     imageStore(visibility, pixel, vec4(v));
     GN_TELL
 }
@@ -135,7 +135,8 @@ Visibility add_soft_irregular(const FrameInput& input, const Recipe& recipe) {
     const auto shader = compute_once(input.prepared, "soft-irregular: resolve", hashed(inputs), [&] {
         return fmt::format("#define GN_TELL {}\n",
                            told ? "imageStore(asked, pixel, vec4(float(edge_sums[2u * sample_index + 1u])));" : "") +
-               include_line("shadow/scene/light.h") + includes_text + inputs.text() + resolve_text;
+               include_line("shadow/scene/light.h") + include_line("shadow/geometry/occluder.glsl") + includes_text +
+               inputs.text() + resolve_text;
     });
     add_pixel_pass(input.graph, "soft-irregular: resolve", inputs, shader, input.samples.width, input.samples.height);
     return result;
