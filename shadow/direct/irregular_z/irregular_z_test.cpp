@@ -302,9 +302,6 @@ std::string by_seed(unsigned seed) {
 class IrregularZRandom : public testing::TestWithParam<unsigned> {};
 
 TEST_P(IrregularZRandom, EqualsTheTracedHardShadowAwayFromEdges) {
-    if (!test::thorough()) {
-        GTEST_SKIP() << "skipped: a driver that compiles for each scene takes 3 s for one";
-    }
     expect_random_meshes_as_traced(
         GetParam(), [](unsigned seed) { return load_recipe(by_seed(seed)); }, by_seed);
 }
