@@ -177,7 +177,7 @@ class VulkanDevice final : public Device {
 
     MessageLog log_;
     bool validates_ = false, presents_ = false;
-    std::optional<Instance> instance_;
+    std::optional<VulkanInstance> instance_;
     Candidate candidate_;
     VkInstance vk_instance_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -68,7 +68,7 @@ void describe_device(const Candidate& candidate, std::vector<std::string>& lines
 bool validation_installed() {
     MessageLog log;
     try {
-        const Instance instance(true, log);
+        const VulkanInstance instance(true, log);
         return true;
     } catch (const Error&) {
         return false;
@@ -77,7 +77,7 @@ bool validation_installed() {
 
 void examine_into(DoctorReport& report) {
     MessageLog log;
-    const Instance instance(false, log);
+    const VulkanInstance instance(false, log);
     std::vector<Candidate> candidates = examine_all(instance.vk());
     for (const Candidate& candidate : candidates) {
         const std::uint32_t version = candidate.properties.apiVersion;

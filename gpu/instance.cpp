@@ -87,7 +87,7 @@ void keep_driver_cache(std::vector<std::string>& notes) {
 
 }  // namespace
 
-Instance::Instance(bool validation, MessageLog& log, std::span<const char* const> extensions) {
+VulkanInstance::VulkanInstance(bool validation, MessageLog& log, std::span<const char* const> extensions) {
     keep_driver_cache(notes_);
     if (validation && !has_layer(validation_layer)) {
         fail("validation was asked for, but the layer {} is not installed", validation_layer);
@@ -128,7 +128,7 @@ Instance::Instance(bool validation, MessageLog& log, std::span<const char* const
     }
 }
 
-Instance::~Instance() {
+VulkanInstance::~VulkanInstance() {
     if (messenger_ != VK_NULL_HANDLE) {
         const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));

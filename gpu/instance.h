@@ -15,14 +15,14 @@ struct MessageLog {
     std::vector<std::string> messages;
 };
 
-class Instance {
+class VulkanInstance {
   public:
     /// Throws Error when there is no Vulkan loader or driver, or validation is asked for and not installed. `extensions`: further
     /// ones that must be there.
-    Instance(bool validation, MessageLog& log, std::span<const char* const> extensions = {});
-    ~Instance();
-    Instance(const Instance&) = delete;
-    Instance& operator=(const Instance&) = delete;
+    VulkanInstance(bool validation, MessageLog& log, std::span<const char* const> extensions = {});
+    ~VulkanInstance();
+    VulkanInstance(const VulkanInstance&) = delete;
+    VulkanInstance& operator=(const VulkanInstance&) = delete;
     [[nodiscard]] VkInstance vk() const { return instance_; }
     [[nodiscard]] bool labels() const { return labels_; }  ///< VK_EXT_debug_utils is on
     /// What goes without on this machine, one sentence each.

@@ -127,6 +127,22 @@ def unnamed_names(tree):
     return complaints
 
 
+def one_definition(tree):
+    """A type that other sources could see has its name to itself: of two the linker would take one's functions for both."""
+    places = {}
+    for name in tree.having({".cpp", ".h"}):
+        spaces = []
+        for line in () if name.startswith("examples/") else tree.text(name).splitlines():
+            if opened := re.match(r"namespace( [\w:]+)? \{", line):
+                spaces.append((opened[1] or "").strip())
+            elif line.startswith("}  // namespace") and spaces:
+                spaces.pop()
+            elif (defined := re.match(r"(?:struct|class|union) (\w+)(?: final)?(?: : [^;]*)? \{", line)) and "" not in spaces:
+                places.setdefault("::".join([*spaces, defined[1]]), []).append(name)
+    return [f"{found[1]}: {entity} is defined in {found[0]} too; give one another name or an unnamed namespace"
+            for entity, found in places.items() if len(found) > 1]
+
+
 # Who may include what: the first row whose prefix fits a file decides.
 LAYERS = (
     ("base/", ("base/",)),
@@ -450,5 +466,5 @@ def mutants(tree):
     return complaints
 
 
-ALL = (part_shape, part_definitions, unnamed_names, layering, parts_are_strangers, stages_are_strangers, includes_resolve, folder_names, file_sizes,
+ALL = (part_shape, part_definitions, unnamed_names, one_definition, layering, parts_are_strangers, stages_are_strangers, includes_resolve, folder_names, file_sizes,
        licence_lines, citations, keys_exist, chained_matrices, machine_paths, pages_exist, issue_numbers, portable_glsl, long_shader_texts, named_bindings, recipes, manual_pages, mutants)

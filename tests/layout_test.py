@@ -58,6 +58,8 @@ BREACHES = [
     (rules.layering, {"shadow/frame/frame.cpp": SPDX + '#include "reference/truth.h"\n'}, "reference/truth.h"),
     (rules.layering, {"reference/a.cpp": SPDX + '#include "shadow/recipe/part.h"\n'}, "shadow/recipe/part.h"),
     (rules.layering, {"reference/a.cpp": SPDX + '#include "gpu/device.h"\n'}, "gpu/device.h"),
+    (rules.one_definition, {"gpu/a.cpp": SPDX + "namespace gn {\nstruct Slot {\n};\n}  // namespace gn\n",
+                            "apps/b.h": SPDX + "namespace gn {\nclass Slot {\n};\n}  // namespace gn\n"}, "gn::Slot"),
     (rules.layering, {"base/a_test.cpp": SPDX + '#include "shadow/recipe/part.h"\n'}, "shadow/recipe/part.h"),
     (rules.parts_are_strangers, {f"{PART}.cpp": SPDX + '#include "shadow/map/depth/depth.h"\n'}, "another part"),
     (rules.stages_are_strangers, {"shadow/lookup/a.cpp": SPDX + '#include "shadow/map/derived.h"\n'}, "belongs into a room"),

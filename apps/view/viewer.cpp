@@ -53,8 +53,8 @@ Viewer::Viewer(Device& device, ViewSetup setup, Window* window)
       exposure_(device, exposure_buffer()) {
     apply(first_);
     make_viewports(first_.viewports);
-    for (std::unique_ptr<FrameSlot>& slot : slots_) {
-        slot = std::make_unique<FrameSlot>(device_);
+    for (std::unique_ptr<WindowFrame>& slot : slots_) {
+        slot = std::make_unique<WindowFrame>(device_);
     }
     context_ = ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -78,7 +78,7 @@ Viewer::~Viewer() {
 
 void Viewer::frame() {
     // The slot's last frame has completed: what it answers arrives.
-    FrameSlot& slot = *slots_[slot_];
+    WindowFrame& slot = *slots_[slot_];
     slot.wait();
     count_time();
     frames_.begin(slot_);

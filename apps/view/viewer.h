@@ -3,10 +3,10 @@
 // that; without one it draws the same pictures.
 #pragma once
 
-#include "apps/view/frame_slot.h"
 #include "apps/view/truth_worker.h"
 #include "apps/view/viewport.h"
 #include "apps/view/window.h"
+#include "apps/view/window_frame.h"
 
 #include <array>
 #include <filesystem>
@@ -105,7 +105,7 @@ class Viewer {
     std::vector<std::shared_ptr<Viewport>> viewports_;
     PipelineCompiler compiler_;
     Frames frames_;  ///< of the window's picture
-    std::array<std::unique_ptr<FrameSlot>, 2> slots_;
+    std::array<std::unique_ptr<WindowFrame>, 2> slots_;
     std::uint32_t slot_ = 0;
     std::uint64_t drawn_ = 0;
     Buffer exposure_;

@@ -6,13 +6,13 @@
 
 namespace gn {
 
-class FrameSlot {
+class WindowFrame {
   public:
-    explicit FrameSlot(Device& device);
+    explicit WindowFrame(Device& device);
     /// The device must have finished.
-    ~FrameSlot();
-    FrameSlot(const FrameSlot&) = delete;
-    FrameSlot& operator=(const FrameSlot&) = delete;
+    ~WindowFrame();
+    WindowFrame(const WindowFrame&) = delete;
+    WindowFrame& operator=(const WindowFrame&) = delete;
 
     /// Until what was submitted last has completed. Throws Error on a lost device.
     void wait() const;

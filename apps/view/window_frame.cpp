@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/view/frame_slot.h"
+#include "apps/view/window_frame.h"
 
 namespace gn {
 
-FrameSlot::FrameSlot(Device& device) : device_(device) {
+WindowFrame::WindowFrame(Device& device) : device_(device) {
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .queueFamilyIndex = device.queue_family()};
     GN_VK(vkCreateCommandPool(device.vk(), &pool, nullptr, &pool_));
@@ -18,17 +18,17 @@ FrameSlot::FrameSlot(Device& device) : device_(device) {
     GN_VK(vkCreateSemaphore(device.vk(), &semaphore, nullptr, &acquired_));
 }
 
-FrameSlot::~FrameSlot() {
+WindowFrame::~WindowFrame() {
     vkDestroySemaphore(device_.vk(), acquired_, nullptr);
     vkDestroyFence(device_.vk(), fence_, nullptr);
     vkDestroyCommandPool(device_.vk(), pool_, nullptr);
 }
 
-void FrameSlot::wait() const {
+void WindowFrame::wait() const {
     GN_VK(vkWaitForFences(device_.vk(), 1, &fence_, VK_TRUE, ~std::uint64_t{0}));
 }
 
-VkCommandBuffer FrameSlot::begin() {
+VkCommandBuffer WindowFrame::begin() {
     GN_VK(vkResetCommandPool(device_.vk(), pool_, 0));
     const VkCommandBufferBeginInfo once{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -36,7 +36,7 @@ VkCommandBuffer FrameSlot::begin() {
     return commands_;
 }
 
-void FrameSlot::submit(VkSemaphore rendered) {
+void WindowFrame::submit(VkSemaphore rendered) {
     GN_VK(vkEndCommandBuffer(commands_));
     GN_VK(vkResetFences(device_.vk(), 1, &fence_));
     const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
