@@ -121,9 +121,9 @@ void expect_random_meshes_as_traced(unsigned kind, const std::function<Recipe(un
         fmt::print("{}: {} of {} wrong: {} beside a shadow, {} on a triangle's border, {} elsewhere\n",
                    mesh_kind_name(kind), wrong, judged, places.by_shadow, places.on_triangle, places.elsewhere);
     }
-    // There is something to see: of 300 pictures of ten sheets 483 samples each lie in a shadow, of no other kind so few.
-    EXPECT_GT(lit, 400U * seeds);
-    EXPECT_GT(shadowed, 400U * seeds);
+    // There is something to see. Ten double sheets shade least: 483 samples a picture, as the mean of 300.
+    EXPECT_GT(lit, 500U * seeds);
+    EXPECT_GT(shadowed, (kind == mesh_kinds - 1 ? 450U : 500U) * seeds);
 }
 
 Scene hinge(float angle, bool closed_by_a_wall) {
