@@ -42,6 +42,17 @@ void keep_one_texel(std::vector<int>& same, const CpuSamples& from, const CpuSam
     }
 }
 
+PathView view_of(const CpuSamples& samples, int w, int h) {
+    const Camera& camera = samples.camera;
+    const mat4 cs_from_ws = cs_from_vs(camera, static_cast<float>(w) / static_cast<float>(h)) * vs_from_ws(camera);
+    return {w,
+            h,
+            cs_from_ws,
+            static_cast<float>(2 * half_height_at(camera, 1) / static_cast<double>(h)),
+            samples.normal_ws,
+            samples.position_ws};
+}
+
 /// Follows the cameras with one history, against the closed answer of the tracer for a sun without size.
 Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::string& text, Pairs pairs = Pairs::all) {
     const test::ValidationGuard guard;
@@ -53,16 +64,6 @@ Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::s
     CpuSamples before;
     SignedError error_before;
     Walked walked;
-    const auto view_of = [](const CpuSamples& samples) {
-        const Camera& camera = samples.camera;
-        const mat4 cs_from_ws = cs_from_vs(camera, static_cast<float>(width) / height) * vs_from_ws(camera);
-        return PathView{width,
-                        height,
-                        cs_from_ws,
-                        static_cast<float>(2 * half_height_at(camera, 1) / height),
-                        samples.normal_ws,
-                        samples.position_ws};
-    };
     for (const Camera& camera : cameras) {
         FrameResult frame = render_frame(
             test::device(), gpu, camera, recipe,
@@ -75,7 +76,7 @@ Walked walk(const Scene& scene, const std::vector<Camera>& cameras, const std::s
         walked.rmse += visibility_errors(found, truth.visibility, truth.counted, width, height).rmse.value() /
                        static_cast<double>(cameras.size());
         if (!before.position_ws.empty()) {
-            std::vector<int> same = same_points(view_of(before), view_of(frame.samples));
+            std::vector<int> same = same_points(view_of(before, width, height), view_of(frame.samples, width, height));
             if (pairs == Pairs::one_texel) {
                 keep_one_texel(same, before, frame.samples, test::place(scene, text, width, height, &before.camera));
             }
@@ -122,6 +123,45 @@ TEST(FlickerRendered, MostOfWhatRemainsIsThatOfAMapThatNeverChanges) {
     const double snapped = walk(scene, path, "pcf,placement=cascades", Pairs::all).flicker;
     EXPECT_GT(walk(scene, path, "pcf,placement=single", Pairs::all).flicker, 0.5 * snapped);
     EXPECT_LT(walk(scene, path, "volumes", Pairs::all).flicker, 0.01 * snapped);
+}
+
+/// How much V of points that both see differs from the first camera to the second, where the map is one and the same.
+double change_of(SceneGpu& gpu, const std::array<Camera, 2>& cameras, const std::string& recipe) {
+    constexpr uint w = 640, h = 480;
+    std::array<FrameResult, 2> frames;
+    for (std::size_t i = 0; i < 2; ++i) {
+        frames[i] = render_frame(test::device(), gpu, cameras[i], load_recipe(recipe),
+                                 {.width = w, .height = h, .only_light = 0, .picture = false});
+        EXPECT_EQ(frames[i].refused.front(), "");
+    }
+    const std::vector<int> same = same_points(view_of(frames[0].samples, w, h), view_of(frames[1].samples, w, h));
+    const std::vector<float>& after = frames[1].visibility[0].values;
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < same.size(); ++i) {
+        const float v = frames[0].visibility[0].values[i];
+        if (same[i] >= 0 && v > 0 && v < 1) {
+            const double change =
+                static_cast<double>(after[static_cast<std::size_t>(same[i])]) - static_cast<double>(v);
+            sum += change * change;
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 50) << recipe;
+    return std::sqrt(sum / count);
+}
+
+/// What turns the taps of a penumbra stays on the surface: as the camera moves by a fraction of its pixels, most points keep the
+/// cell that they lie in, whose taps change with the pixel otherwise.
+TEST(FlickerRendered, ThePenumbrasNoiseStaysOnTheSurface) {
+    const test::ValidationGuard guard;
+    const Scene& scene = test::built_in("half-plane:light=directional");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    std::array<Camera, 2> cameras{scene.camera(""), scene.camera("")};
+    cameras[1].position_ws += 0.01F * scene.bounds_ws.diagonal() * cameras[1].forward_ws;
+    const std::string few = "pcss,placement=single,pcss.taps=8";
+    const double swims = change_of(gpu, cameras, few + ",pcss.noise=pixel");
+    EXPECT_LT(change_of(gpu, cameras, few), 0.7 * swims);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/receiver/known.h"
 
+#include "shadow/receiver/parallel_views.h"
 #include "shadow/receiver/sample_pass.h"
 
 #include <algorithm>
@@ -8,23 +9,26 @@
 namespace gn {
 namespace {
 
-/// Up to so many views are all read, and one of them is taken: software reads an array that is indexed by a variable one
-/// pixel at a time, a hundred numbers each.
-constexpr std::size_t most_taken = 4;
-
-/// The view of an index, as it stands in the block.
-std::string read_view(const Device& device, std::size_t count) {
-    if (count == 1) {
-        return "    GnLightView view = views[0];\n";
-    }
-    if (!device.info().cpu || count > most_taken) {
-        return "    GnLightView view = views[index];\n";
-    }
-    std::string text = "    GnLightView view = views[0];\n";
+/// What an array holds at an index. Software reads an array that is indexed by a variable one pixel at a time; so of a few all
+/// are read, and one of them is taken.
+std::string taken(std::string_view type, std::string_view name, std::string_view array, std::size_t count) {
+    std::string text = fmt::format("    {} {} = {}[0];\n", type, name, array);
     for (std::size_t i = 1; i < count; ++i) {
-        text += fmt::format("    if (index == {0}) {{ view = views[{0}]; }}\n", i);
+        text += fmt::format("    if (index == {2}) {{ {0} = {1}[{2}]; }}\n", name, array, i);
     }
     return text;
+}
+
+/// The view of an index: of views that look one way, the rows that lookups read are made of what differs, 6 numbers for 12.
+std::string read_view(const Device& device, const LightViews& views) {
+    const std::size_t count = views.views.size();
+    if (count > 1 && (!device.info().cpu || count > most_taken)) {
+        return "    GnLightView view = views[index];\n";
+    }
+    const std::string text = taken("GnLightView", "view", "views", count);
+    return !parallel_views(views) ? text
+                                  : text + taken("GnViewPlace", "place", "view_places", count) +
+                                        "    view = gn_along_axes(view, view_axes, place);\n";
 }
 
 /// What all views agree in, where the CPU knows them.
@@ -88,8 +92,8 @@ std::string absent(const GnBias& bias) {
 }  // namespace
 
 std::string known_text(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
-    return "GnLightView known_view(int index) {\n" + read_view(input.device, views.views.size()) +
-           shared_by_views(views) + "    return view;\n}\n" +  //
+    return "GnLightView known_view(int index) {\n" + read_view(input.device, views) + shared_by_views(views) +
+           "    return view;\n}\n" +  //
            "GnBias known_bias() {\n    GnBias bias = u.bias;\n" + absent(applied_bias(input, recipe)) +
            "    return bias;\n}\n" +
            fmt::format(

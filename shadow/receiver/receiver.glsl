@@ -11,6 +11,7 @@
 #define GN_SHADOW_RECEIVER_GLSL
 
 #include "base/shared.h"
+#include "shadow/receiver/parallel_views.glsl"
 #include "shadow/receiver/bias.h"
 #include "shadow/light_view.h"
 #include "shadow/receiver/logarithm.glsl"

@@ -3,6 +3,7 @@
 
 #include "shadow/geometry/potential_receivers.h"
 #include "shadow/receiver/known.h"
+#include "shadow/receiver/parallel_views.h"
 #include "shadow/recipe/guard.h"
 
 #include <algorithm>
@@ -103,10 +104,35 @@ ShaderInputs view_list(const LightViews& views) {
     return inputs;
 }
 
+namespace {
+
+/// The views; for software also what it takes one by where all look one way (known_text), in the same block: Mesa 22.3.6 crashes
+/// where five blocks are read, and choices depend on the last.
+void add_known_views(ShaderInputs& inputs, const Device& device, const LightViews& views) {
+    const auto parallel = device.info().cpu ? parallel_views(views) : std::nullopt;
+    if (!parallel) {
+        add_views(inputs, views);
+        return;
+    }
+    std::vector<std::byte> bytes;
+    const auto put = [&](auto list) {
+        const auto more = std::as_bytes(std::span(list));
+        bytes.insert(bytes.end(), more.begin(), more.end());
+    };
+    put(views.views);
+    put(std::array{parallel->axes});
+    put(parallel->places);
+    inputs.block("uniform", "Views",
+                 "GnLightView views[GN_VIEW_COUNT]; GnViewAxes view_axes; GnViewPlace view_places[GN_VIEW_COUNT];",
+                 bytes);
+}
+
+}  // namespace
+
 ShaderInputs sample_inputs(const FrameInput& input, const Recipe& recipe, const LightViews& views) {
     ShaderInputs inputs;
     add_gbuffer(inputs, input.device, input.samples);
-    add_views(inputs, views);
+    add_known_views(inputs, input.device, views);
     add_placement_data(inputs, views);
     add_lent(inputs, views);
     inputs.constant("GnViewConstants", "view", input.samples.constants);

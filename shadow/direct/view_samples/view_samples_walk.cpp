@@ -167,7 +167,7 @@ BufferHandle add_rest_groups(const MappedSamples& m, const std::string& name, co
 }
 
 /// What is left out is said.
-void tell_cut(const FrameInput& input, const std::string& name, BufferHandle cut) {
+void tell_missing(const FrameInput& input, const std::string& name, BufferHandle cut) {
     input.graph.answer(cut, [name, remarks = input.late_remarks](std::span<const std::byte> bytes) {
         std::uint32_t was_cut = 0;
         std::memcpy(&was_cut, bytes.data(), sizeof was_cut);
@@ -242,7 +242,7 @@ void add_walk(const MappedSamples& m, bool masked) {
             inputs.set(r);
             r.dispatch_indirect(groups);
         });
-    tell_cut(m.input, name, rest.cut);
+    tell_missing(m.input, name, rest.cut);
 }
 
 }  // namespace gn

@@ -102,7 +102,7 @@ float gn_pcss_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray p
 // Half the shorter side of the filter on the light's plane, before `least` widens it; 0 where all of the light is seen or none.
 float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_gradient_noise(at.receiver.p_ss));
+    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
     if (found.visibility >= 0.0) {
         return 0.0;
     }

@@ -22,7 +22,7 @@ struct GnPcssParams {
     float least GN_DEFAULT(1.5f);
     int early_out GN_DEFAULT(1);
     int extremes GN_DEFAULT(GN_PCSS_TEXELS);
-    int noise GN_DEFAULT(GN_PCSS_OF_PIXEL);
+    int noise GN_DEFAULT(GN_PCSS_OF_SURFACE);
 };
 
 #endif

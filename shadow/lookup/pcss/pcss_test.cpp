@@ -152,7 +152,7 @@ TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
             expect_ramp(scene, "pcss", resolution, {.width = 128, .height = 96, .samples = 256}, noise);
         }
     }
-    expect_ramp("half-plane", "pcss,pcss.noise=surface", 512, {.width = 128, .height = 96, .samples = 256}, noise);
+    expect_ramp("half-plane", "pcss,pcss.noise=pixel", 512, {.width = 128, .height = 96, .samples = 256}, noise);
 }
 
 /// Whether a placement serves the scene's first light with the recipe.

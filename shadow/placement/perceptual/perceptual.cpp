@@ -26,6 +26,9 @@ std::shared_ptr<std::uint32_t> smallest_filter(const FrameInput& input) {
                : nullptr;
 }
 
+}  // namespace gn
+
+namespace gn::perceptual {
 namespace {
 
 constexpr int least_texels = 16;
@@ -190,10 +193,12 @@ ParamTable rows() {
 }
 
 }  // namespace
+}  // namespace gn::perceptual
 
-namespace parts {
+namespace gn::parts {
 
 const Part& placement_perceptual() {
+    using namespace gn::perceptual;
     static const Part part = [] {
         Part p;
         p.id = "perceptual";
@@ -211,5 +216,4 @@ const Part& placement_perceptual() {
     return part;
 }
 
-}  // namespace parts
-}  // namespace gn
+}  // namespace gn::parts
