@@ -52,6 +52,9 @@ vec2 gn_pyramid_min_max(sampler2DArray pyramid, ivec2 first, ivec2 last, int lay
     return vec2(min(min(aa.x, ba.x), min(ab.x, bb.x)), max(max(aa.y, ba.y), max(ab.y, bb.y)));
 }
 
+// Of the whole layer, whatever views it holds.
+vec2 gn_pyramid_all(sampler2DArray pyramid, int layer) { return texelFetch(pyramid, ivec3(0, 0, layer), textureQueryLevels(pyramid) - 1).xy; }
+
 // Exact for squares; along a shorter side the squares reach beyond the rectangle by what the sides differ.
 vec2 gn_n_buffer_min_max(sampler2DArray squares, ivec2 first, ivec2 last, int layer, int levels) {
     int level = gn_n_buffer_level(first, last, levels);

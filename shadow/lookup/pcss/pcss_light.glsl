@@ -138,6 +138,15 @@ GN_FN GnPcssKernel gn_pcss_kernel(GnLookup at, GnPcssLight half_light, float spr
     return kernel;
 }
 
+// The same for another spread, of that for a spread of 1.
+GN_FN GnPcssKernel gn_pcss_spread_by(GnPcssKernel one, float spread) {
+    GnPcssKernel kernel = one;
+    kernel.right_ts *= spread;
+    kernel.up_ts *= spread;
+    kernel.fall *= spread;
+    return kernel;
+}
+
 // The way of point q.
 GN_FN vec2 gn_pcss_way(GnPcssKernel kernel, vec2 q) {
     vec2 way_ts = q.x * kernel.right_ts + q.y * kernel.up_ts;
@@ -304,7 +313,7 @@ struct GnPcssRegion {
     float spread;      // of a blocker there
 };
 
-// From the nearest that the whole view holds, then from the nearest in the region that follows from it. `least`: texels by
+// From the nearest that the whole layer holds, then from the nearest in the region that follows from it. `least`: texels by
 // which kernels reach farther than the light's points.
 GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, float least,
                             bool early_out) {
@@ -312,16 +321,16 @@ GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight hal
     region.visibility = -1.0;
     region.receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     vec2 least_ts = vec2(least * at.projected.texel_ts);
-    vec2 found = gn_pcss_extremes(at, pyramid, at.projected.bounds_ts.zw - at.projected.bounds_ts.xy);
+    GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
+    vec2 found = gn_pyramid_all(pyramid, at.projected.layer);
 #if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
     GnLookup whole = gn_pcss_whole(at);
-    vec2 all_ts = whole.projected.bounds_ts.zw - whole.projected.bounds_ts.xy;
-    found = vec2(min(found.x, gn_pcss_extremes(whole, pyramid, all_ts).x), -1.0);
+    found = vec2(min(found.x, gn_pyramid_all(pyramid, whole.projected.layer).x), -1.0);
 #endif
     for (int step = 0; step < 3; ++step) {
         region.nearest = gn_pcss_distance(metres, at.view, at.projected.uv_ts, max(found.x, 0.0));
         region.spread = gn_pcss_spread_at(at, region.receiver, region.nearest);
-        vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
+        vec2 reach_ts = gn_pcss_reach(gn_pcss_spread_by(one, region.spread), half_light.square);
         found = gn_pcss_extremes(at, pyramid, reach_ts + least_ts);
 #if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
         found = gn_pcss_with_whole(found, whole, pyramid, half_light, region.spread);
