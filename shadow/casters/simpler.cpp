@@ -5,11 +5,13 @@
 #include "gpu/upload.h"
 #include "shadow/casters/caster_draw.h"
 #include "shadow/casters/caster_pipeline.h"
+#include "shadow/frame/history.h"
 #include "shadow/geometry/edges.h"
 #include "shadow/scene/casting.h"
 #include "shadow/scene/simplifier.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace gn {
 namespace {
@@ -18,18 +20,56 @@ constexpr std::uint32_t least_simplified = 32;  ///< triangles
 /// The error that collapses tell is a mean over what an edge stood for: the farthest place may lie twice as far.
 constexpr float told_of_error = 0.5F;
 constexpr std::size_t least_indices = 12;
+/// What of the least error vertices may be off the motion of their object, which rounding takes them off by.
+constexpr float rounded_of_error = 1.0F / 64;
+constexpr double most_stretched = 1e-3;  ///< squares of lengths
 
-/// An object by itself, its vertices welded.
+/// An object by itself, its vertices welded: of those in one place its own first one stands for all.
 OwnMesh object_mesh(const Scene& scene, const Object& object, std::span<const std::uint32_t> welded) {
+    std::unordered_map<std::uint32_t, std::uint32_t> own;
+    const auto joined = [&](std::uint32_t vertex) { return own.try_emplace(welded[vertex], vertex).first->second; };
     std::vector<std::uint32_t> indices;
     for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t) {
         const uvec3 corners = scene.triangles[t];
-        const uvec3 joined(welded[corners.x], welded[corners.y], welded[corners.z]);
-        if (joined.x != joined.y && joined.y != joined.z && joined.z != joined.x) {
-            indices.insert(indices.end(), {joined.x, joined.y, joined.z});
+        const uvec3 of_own(joined(corners.x), joined(corners.y), joined(corners.z));
+        if (of_own.x != of_own.y && of_own.y != of_own.z && of_own.z != of_own.x) {
+            indices.insert(indices.end(), {of_own.x, of_own.y, of_own.z});
         }
     }
     return own_mesh(scene.positions_ws, std::move(indices));
+}
+
+bool is_simplified(const Scene& scene, std::size_t object) {
+    return scene.objects[object].triangle_count >= least_simplified &&
+           caster_class(scene, object, nullptr) == CasterClass::opaque;
+}
+
+/// Whether all vertices are where one motion without stretching takes them, within metres.
+bool moved_rigidly(const Scene& scene, const Object& object, const SimplerSource& was, double within) {
+    const dmat4 now_from_was = object.now_from_first * glm::inverse(was.now_from_first);
+    const glm::dmat3 turn(now_from_was);
+    const glm::dmat3 stretch = glm::transpose(turn) * turn - glm::dmat3(1);
+    for (int column = 0; column < 3; ++column) {
+        if (glm::any(glm::greaterThan(glm::abs(stretch[column]), dvec3(most_stretched)))) {
+            return false;
+        }
+    }
+    for (std::size_t i = 0; i < was.mesh.vertices.size(); ++i) {
+        const dvec3 there(now_from_was * dvec4(dvec3(was.mesh.positions_ws[i]), 1));
+        if (glm::distance(there, dvec3(scene.positions_ws[was.mesh.vertices[i]])) > within) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Whether an object's meshes serve on: triangles are of the vertices that moved with it.
+bool serves_on(const SimplerCasters& before, const Scene& scene, std::size_t index) {
+    const SimplerSource& was = before.sources[index];
+    const Object& object = scene.objects[index];
+    return was.asked == is_simplified(scene, index) &&
+           (!was.asked || was.version == object.version ||
+            moved_rigidly(scene, object, was, static_cast<double>(rounded_of_error * before.errors.front())));
 }
 
 /// Its simpler mesh, of the scene's vertices; empty where hardly anything would be saved.
@@ -50,21 +90,33 @@ std::vector<std::uint32_t> simplified(const OwnMesh& mesh, const Box& bounds_ws,
     return left;
 }
 
-SimplerCasters make_simpler(Device& device, const Scene& scene, std::span<const float> errors) {
+/// `before`: whose objects' meshes serve on where they can; null: none do.
+SimplerCasters make_simpler(Device& device, const Scene& scene, std::span<const float> errors,
+                            const SimplerCasters* before) {
     SimplerCasters made;
     made.errors.assign(errors.begin(), errors.end());
     made.ranges.assign(errors.size(), std::vector<DrawRange>(scene.objects.size()));
+    made.sources.resize(scene.objects.size());
     const std::vector<std::uint32_t> welded = weld(scene.positions_ws);
-    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t>& indices = made.list;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (object.triangle_count < least_simplified || caster_class(scene, i, nullptr) != CasterClass::opaque) {
+        if (!is_simplified(scene, i)) {
             continue;
         }
-        const OwnMesh mesh = object_mesh(scene, object, welded);
+        const bool kept = before != nullptr && serves_on(*before, scene, i);
+        SimplerSource& source = made.sources[i];
+        source = kept ? before->sources[i]
+                      : SimplerSource{true, object_mesh(scene, object, welded), object.version, object.now_from_first};
         for (std::size_t level = 0; level < errors.size(); ++level) {
-            const std::vector<std::uint32_t> left =
-                simplified(mesh, object.bounds_ws, object.triangle_count, errors[level]);
+            std::vector<std::uint32_t> left;
+            if (kept) {
+                const DrawRange& range = before->ranges[level][i];
+                const auto first = before->list.begin() + range.first_index;
+                left.assign(first, first + range.index_count);
+            } else {
+                left = simplified(source.mesh, object.bounds_ws, object.triangle_count, errors[level]);
+            }
             made.ranges[level][i] = {static_cast<std::uint32_t>(indices.size()),
                                      static_cast<std::uint32_t>(left.size())};
             indices.insert(indices.end(), left.begin(), left.end());
@@ -77,6 +129,26 @@ SimplerCasters make_simpler(Device& device, const Scene& scene, std::span<const 
     indices.resize(std::max<std::size_t>(indices.size(), 3), 0);
     made.indices = upload(device, "simpler casters", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     return made;
+}
+
+using Shared = std::shared_ptr<const SimplerCasters>;
+
+/// Those of an older version of the same geometry where all of them serve on, else new ones.
+Shared simpler_since(const FrameInput& input, std::span<const float> errors, const Shared& older) {
+    const bool comparable = older != nullptr && input.handles.derived != nullptr &&
+                            older->geometry.lock() == input.handles.derived &&
+                            std::equal(errors.begin(), errors.end(), older->errors.begin(), older->errors.end()) &&
+                            older->sources.size() == input.scene.objects.size();
+    bool all = comparable;
+    for (std::size_t i = 0; all && i < input.scene.objects.size(); ++i) {
+        all = serves_on(*older, input.scene, i);
+    }
+    if (all) {
+        return older;
+    }
+    SimplerCasters made = make_simpler(input.device, input.scene, errors, comparable ? older.get() : nullptr);
+    made.geometry = input.handles.derived;
+    return std::make_shared<const SimplerCasters>(std::move(made));
 }
 
 }  // namespace
@@ -102,8 +174,16 @@ std::shared_ptr<const SimplerCasters> simpler_casters(const FrameInput& input, s
     for (const float error : levels) {
         key.value(error);
     }
-    return input.derive("simpler casters", key.finish().low,
-                        [&] { return make_simpler(input.device, input.scene, levels); });
+    // What a history's last frame drew.
+    const std::string name = fmt::format("simpler casters of light {}", input.light_id);
+    const bool follows = input.history != nullptr && input.parent == nullptr;
+    const Shared* const older = follows ? input.history->before<Shared>(name) : nullptr;
+    Shared simpler = *input.derive("simpler casters", key.finish().low,
+                                   [&] { return simpler_since(input, levels, older != nullptr ? *older : nullptr); });
+    if (follows) {
+        input.history->leave(name, simpler);
+    }
+    return simpler;
 }
 
 GnLightView set_back(GnLightView view, float metres) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Percentage-closer filtering over any placement, grids by gathers and discs by single texels.
+// Percentage-closer filtering over any placement, grids by gathers, discs by single texels or bilinear taps.
 //
 // Based on: Reeves, Salesin, Cook. Rendering Antialiased Shadows with Depth Maps. SIGGRAPH 1987. [RSC87]
 #include "shadow/lookup/pcf/pcf.h"
@@ -26,6 +26,9 @@ Guard guard(const Recipe& recipe, const Light&, const Box&) {
         guard = {.texels = 1, .metres = params.radius_world};
     } else {
         guard.texels = params.radius + 1;
+    }
+    if (!is_grid(params) && params.tap == GN_PCF_FOUR_TEXELS) {
+        guard.texels += 1;  // the texels beside the one that a tap falls into
     }
     guard.pixels = params.footprint == GN_PCF_OF_PIXEL ? 1.0F : 0.0F;
     return guard;
@@ -55,6 +58,7 @@ std::string prologue(const Recipe& recipe) {
         text += fmt::format("#define GN_PCF_FOOTPRINT {}\n", glsl::gn_pcf_footprint(params.kernel, size));
         return text;
     }
+    text += fmt::format("#define GN_PCF_TAP {}\n", params.tap);
     text += fmt::format("#define GN_PCF_TAPS {}\n#define GN_PCF_EARLY_OUT {}\n", params.taps, params.early_out != 0);
     const std::vector<vec2> disc = disc_of(params);
     const std::size_t probes = std::min<std::size_t>(8, disc.size());
@@ -83,6 +87,10 @@ ParamTable rows() {
         GN_PARAM(GnPcfParams, early_out, boolean, 0, 1, "",
                  "Stops after 8 taps that agree: faster, but specks smaller than the gaps between them are lost."),
         GN_PARAM(GnPcfParams, seed, integer, 0, 65535, "", "Another Poisson set; nothing else changes."),
+        GN_CHOICE(GnPcfParams, tap,
+                  "What a disc kernel's tap compares: the texel that it falls into, or the four around it, weighed "
+                  "bilinearly, so that coarse texels do not show as steps within the kernel.",
+                  "texel", "bilinear"),
     });
 }
 

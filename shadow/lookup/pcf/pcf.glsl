@@ -4,13 +4,13 @@
 // The pixel's footprint: Lauritzen. Rendering Antialiased Shadows using Warped Variance Shadow Maps. Waterloo 2008.
 // [Lau08], 2.3.
 // Departs from them: grid kernels are separable weights over gathered texels, and take the rectangle around the footprint;
-// disc kernels use fixed sets of taps.
+// disc kernels use fixed sets of taps, each of one texel or of the four around it.
 #ifndef GN_SHADOW_LOOKUP_PCF_GLSL
 #define GN_SHADOW_LOOKUP_PCF_GLSL
 
 #include "shadow/lookup/pcf/pcf.h"
 #include "shadow/receiver/noise.glsl"
-#include "shadow/receiver/map_access.glsl"
+#include "shadow/receiver/bilinear_tap.glsl"
 #include "shadow/receiver/confidence.glsl"
 
 #ifdef __cplusplus
@@ -129,6 +129,7 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 //   #define GN_PCF_TAPS 16
 //   #define GN_PCF_EARLY_OUT true
 //   #define GN_PCF_OVER_PIXEL false
+//   #define GN_PCF_TAP GN_PCF_ONE_TEXEL
 #ifndef GN_PCF_FOOTPRINT
 #define GN_PCF_FOOTPRINT gn_pcf_footprint(params.kernel, params.size)
 #endif
@@ -145,6 +146,9 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 #ifndef GN_PCF_EARLY_OUT
 #define GN_PCF_EARLY_OUT (params.early_out != 0)
 #endif
+#ifndef GN_PCF_TAP
+#define GN_PCF_TAP params.tap
+#endif
 #ifndef GN_PCF_OVER_PIXEL
 #define GN_PCF_OVER_PIXEL (params.footprint == GN_PCF_OF_PIXEL)
 #endif
@@ -156,26 +160,12 @@ GN_FN float gn_pcf_angle(vec2 p_ss) { return 6.28318531f * gn_gradient_noise(p_s
 //   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
 //   with #define GN_LIGHT_VIEW(i) at.view
 vec4 gn_pcf_gather(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec2 corner_ts) {
-    float half_ts = 0.5 * at.projected.texel_ts;
-    vec2 d_ts = corner_ts - at.projected.uv_ts;
-#ifdef GN_CROSSING
-    vec2 reach_ts = vec2(at.projected.texel_ts);
-    if (!gn_within_view(at.projected, corner_ts - reach_ts, corner_ts + reach_ts)) {
-        // In the order of a gather: (0,1), (1,1), (1,0), (0,0).
-        vec4 across;
-        for (int k = 0; k < 4; ++k) {
-            vec2 side = vec2(k == 1 || k == 2 ? half_ts : -half_ts, k < 2 ? half_ts : -half_ts);
-            across[k] = float(gn_lit_tap(depth, at, corner_ts + side));
-        }
-        return across;
-    }
-#endif
-    vec4 occluder = gn_map_gather(depth, at, corner_ts);
-    vec4 lit = vec4(gn_lit_beside(at.projected, d_ts.x + vec4(-half_ts, half_ts, half_ts, -half_ts),
-                                  d_ts.y + vec4(half_ts, half_ts, -half_ts, -half_ts), occluder, at.bias));
+    vec4 lit = gn_lit_gather(depth, at, corner_ts);
 #ifdef GN_CASTER_IDS
-    vec4 casters = gn_map_gather(ids, at, corner_ts);
-    lit = max(lit, vec4(equal(casters, vec4(float(at.receiver.object)))));
+    if (gn_gathers_within(at.projected, corner_ts)) {
+        vec4 casters = gn_map_gather(ids, at, corner_ts);
+        lit = max(lit, vec4(equal(casters, vec4(float(at.receiver.object)))));
+    }
 #endif
     return lit;
 }
@@ -265,6 +255,16 @@ vec4 gn_pcf_taps(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec4 u_t
     return max(lit, own);
 }
 
+// The share of each that is lit, of the four texels around it.
+vec4 gn_pcf_bilinear_taps(GnLookup at, sampler2DArray depth, sampler2DArray ids, vec4 u_ts, vec4 v_ts) {
+    vec4 lit;
+    for (int k = 0; k < 4; ++k) {
+        GnBilinear tap = gn_bilinear_in_view(at.projected, vec2(u_ts[k], v_ts[k]));
+        lit[k] = gn_bilinear_mean(gn_pcf_gather(at, depth, ids, tap.corner_ts), tap.share);
+    }
+    return lit;
+}
+
 // How many of four taps are lit, the first of them tap `first`: their points on the unit disc, turned and scaled; `counted`
 // is 1 or 0 each. Over the pixel each tap looks from another place in it.
 float gn_pcf_four(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params,
@@ -281,7 +281,8 @@ float gn_pcf_four(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfPa
             v_ts[k] += d_ts.y;
         }
     }
-    return dot(counted, gn_pcf_taps(at, depth, ids, u_ts, v_ts));
+    return dot(counted, GN_PCF_TAP == GN_PCF_FOUR_TEXELS ? gn_pcf_bilinear_taps(at, depth, ids, u_ts, v_ts)
+                                                         : gn_pcf_taps(at, depth, ids, u_ts, v_ts));
 }
 
 #ifndef GN_PCF_PROBES

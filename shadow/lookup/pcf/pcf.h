@@ -18,6 +18,9 @@
 #define GN_PCF_OF_KERNEL 0
 #define GN_PCF_OF_PIXEL 1
 
+#define GN_PCF_ONE_TEXEL 0
+#define GN_PCF_FOUR_TEXELS 1
+
 struct GnPcfParams {
     int kernel GN_DEFAULT(GN_PCF_BILINEAR_NXN);
     int footprint GN_DEFAULT(GN_PCF_OF_KERNEL);
@@ -27,6 +30,7 @@ struct GnPcfParams {
     float radius_world GN_DEFAULT(0.0f);
     int early_out GN_DEFAULT(0);
     int seed GN_DEFAULT(1);
+    int tap GN_DEFAULT(GN_PCF_ONE_TEXEL);
 };
 
 #endif

@@ -373,10 +373,109 @@ TEST(PcfRendered, TurnedDiscsAreTheShareOfTheirDisc) {
     EXPECT_GE(between, 150);
 }
 
+/// [RSC87] Between the centres of four texels the mean is bilinear: at a centre the texel's own, halfway that of both.
+TEST(Pcf, BilinearTapsInterpolateBetweenCentres) {
+    const float texel_ts = 1.0F / 64;
+    const GnBilinear centre = gn_bilinear(vec2(10.5F, 20.5F) * texel_ts, texel_ts);
+    EXPECT_EQ(centre.corner_ts, vec2(11, 21) * texel_ts);
+    EXPECT_EQ(centre.share, vec2(0));
+    for (const vec2 p : {vec2(10.7F, 20.6F), vec2(11.3F, 21.49F), vec2(11, 21)}) {
+        const GnBilinear tap = gn_bilinear(p * texel_ts, texel_ts);
+        EXPECT_EQ(tap.corner_ts, vec2(11, 21) * texel_ts);
+        const vec2 way = p - vec2(10.5F, 20.5F);
+        // In the order of a gather: the far texel of each axis alone.
+        EXPECT_NEAR(gn_bilinear_mean(vec4(0, 1, 1, 0), tap.share), way.x, 1e-5);
+        EXPECT_NEAR(gn_bilinear_mean(vec4(1, 1, 0, 0), tap.share), way.y, 1e-5);
+        EXPECT_NEAR(gn_bilinear_mean(vec4(0, 1, 0, 0), tap.share), way.x * way.y, 1e-5);
+        EXPECT_EQ(gn_bilinear_mean(vec4(1), tap.share), 1);
+    }
+}
+
+TEST(PcfRendered, OneBilinearTapIsTheBilinearKernel) {
+    const Scene scene = load_scene("contact");
+    const std::string tap = ",pcf.kernel=vogel,pcf.taps=1,pcf.radius=0,pcf.tap=bilinear";
+    for (const std::string map : {"pcf,resolution=128", "pcf,resolution=128,casters=ids"}) {
+        const auto bilinear = test::visibility_of(scene, load_recipe(map + ",pcf.kernel=bilinear"), 48);
+        const auto [worst, between] = worst_between(test::visibility_of(scene, load_recipe(map + tap), 48), bilinear);
+        EXPECT_LT(worst, 1e-5) << map;
+        EXPECT_GE(between, 40) << map;
+    }
+}
+
+/// Each tap of a set is the bilinear mean of the comparisons around it, of comparisons made by hand.
+TEST(PcfRendered, DiscsOfBilinearTapsAreTheMeanOfTheirTaps) {
+    constexpr int taps = 7;
+    constexpr float radius = 3.3F;
+    std::string body = "    vec2 p = at.projected.uv_ts / at.projected.texel_ts - 0.5;\n    float sum = 0.0;\n";
+    for (const vec2& point : poisson_disc(taps, 1).points) {
+        body += fmt::format(R"(    {{
+        vec2 t = p + {:.6f} * vec2({:.9f}, {:.9f});
+        ivec2 first = ivec2(floor(t));
+        vec2 s = t - floor(t);
+        for (int k = 0; k < 4; ++k) {{
+            ivec2 beside = ivec2(k % 2, k / 2);
+            vec2 w = mix(1.0 - s, s, vec2(beside));
+            sum += lit(first + beside) ? w.x * w.y : 0.0;
+        }}
+    }}
+)",
+                            radius, point.x, point.y);
+    }
+    body += fmt::format("    return sum / {:.1f};", static_cast<double>(taps));
+    const Scene scene = load_scene("contact");
+    const Recipe recipe = load_recipe(
+        fmt::format("pcf,resolution=128,placement=single,pcf.kernel=poisson,pcf.taps={},pcf.radius={},pcf.tap=bilinear",
+                    taps, radius));
+    const auto by_hand = test::visibility_by_hand(scene, recipe, body, 40);
+    const auto [worst, between] = worst_between(test::visibility_of(scene, recipe, 40), by_hand);
+    EXPECT_LT(worst, 1e-4);
+    EXPECT_GE(between, 40);
+}
+
+/// From pixel to pixel V changes by no more than the receiver moves over the map, in texels; single texels jump by a tap.
+TEST(PcfRendered, VOfBilinearTapsIsContinuousInTheReceiver) {
+    constexpr uint pixels = 32;
+    Scene scene = ground_from_above(2.02F, 0.4);
+    scene.cameras.front().yfov *= 0.35F;
+    const auto steepest = [&](const std::string& tap) {
+        const Recipe recipe = load_recipe(
+            "pcf,resolution=64,placement=single,pcf.kernel=poisson,pcf.taps=4,pcf.radius=1.5,pcf.tap=" + tap);
+        const auto v = test::visibility_of(scene, recipe, pixels);
+        float most = 0;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            most = std::max(most, i % pixels > 0 ? std::abs(v[i] - v[i - 1]) : 0);
+            most = std::max(most, i >= pixels ? std::abs(v[i] - v[i - pixels]) : 0);
+        }
+        return most;
+    };
+    // The map spans all of the scene, at least 10 metres; a pixel, seen from 1.5 metres above, is at most as many texels wide.
+    const Camera& camera = scene.cameras.front();
+    const double pixel = 2 * std::tan(0.5 * static_cast<double>(camera.yfov)) * 1.5 / pixels / (10.0 / 64);
+    ASSERT_LT(pixel, 0.15);
+    // Along both axes of the map at once, 1.42 times as far.
+    EXPECT_LT(steepest("bilinear"), 1.42 * pixel);
+    EXPECT_GT(steepest("bilinear"), 0.01);
+    EXPECT_GE(steepest("texel"), 0.25);
+}
+
+/// Taps go on in the views beside their own, and end at a rectangle's border without acne.
+TEST(PcfRendered, BilinearTapsNeedNoMoreBiasOverAnyPlacement) {
+    const std::string taps = "pcf,resolution=256,pcf.kernel=vogel,pcf.radius=4,pcf.tap=bilinear,placement=";
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    for (const std::string recipe : {"fit", "cascades", "perceptual", "adaptive", "virtual"}) {
+        EXPECT_LE(*test::compare("tilted:angle=70", taps + recipe, size).errors.acne, 1e-3) << recipe;
+    }
+    for (const std::string edges : {"cross", "guard"}) {
+        EXPECT_LE(*test::compare("tilted:angle=60,light=point", taps + "cube,cube.edges=" + edges, size).errors.acne,
+                  1e-3)
+            << edges;
+    }
+}
+
 TEST(PcfRendered, IdsNeedNoBiasOnAPlane) {
     const std::string unbiased =
         ",resolution=256,bias.constant=0,bias.normal=0,bias.cone=0,bias.receiver_plane=0,pcf.kernel=";
-    for (const char* kernel : {"bilinear-nxn", "gaussian", "vogel"}) {
+    for (const char* kernel : {"bilinear-nxn", "gaussian", "vogel", "vogel,pcf.tap=bilinear"}) {
         const test::ComparisonOptions small{.width = 96, .height = 96, .samples = 1};
         EXPECT_GT(*test::compare("tilted:angle=60", "pcf" + unbiased + kernel, small).errors.acne, 0.1) << kernel;
         // The weights sum to one but for rounding.

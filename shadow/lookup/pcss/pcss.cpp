@@ -13,7 +13,12 @@ namespace gn::parts::pcss {
 namespace {
 
 Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
-    return light_guard(light, bounds_ws, recipe.of<GnPcssParams>("pcss").least);
+    const auto params = recipe.of<GnPcssParams>("pcss");
+    return light_guard(light, bounds_ws, params.least + (params.tap == GN_PCSS_FOUR_TEXELS ? 1.0F : 0.0F));
+}
+
+std::string prologue(const Recipe& recipe) {
+    return fmt::format("#define GN_PCSS_TAP {}\n", recipe.of<GnPcssParams>("pcss").tap);
 }
 
 std::vector<std::string_view> needs_for(const Recipe& recipe) {
@@ -47,6 +52,10 @@ ParamTable rows() {
             "What turns the taps: the place in the picture, so that noise swims over surfaces as the camera moves, or "
             "the place on the surface, on which it stays.",
             "pixel", "surface"),
+        GN_CHOICE(GnPcssParams, tap,
+                  "What a tap of the filter compares: the texel that it falls into, or the four around it, weighed "
+                  "bilinearly, so that coarse texels do not show as steps within penumbrae.",
+                  "texel", "bilinear"),
     });
 }
 
@@ -79,6 +88,7 @@ const Part& lookup_pcss() {
         p.params_type = "GnPcssParams";
         p.glsl = "shadow/lookup/pcss/pcss.glsl";
         p.guard = guard;
+        p.prologue = prologue;
         return p;
     }();
     return part;

@@ -10,10 +10,17 @@
 
 #include "shadow/lookup/pcss/pcss.h"
 #include "shadow/lookup/pcss/pcss_tap.glsl"
+#include "shadow/receiver/bilinear_tap.glsl"
 #include "shadow/receiver/light_plane.glsl"
 #include "shadow/receiver/confidence.glsl"
 
 #ifndef __cplusplus
+
+// A host may fix when it compiles what the filter's taps compare.
+//   #define GN_PCSS_TAP GN_PCSS_ONE_TEXEL
+#ifndef GN_PCSS_TAP
+#define GN_PCSS_TAP params.tap
+#endif
 
 // What turns the taps from pixel to pixel, or from place to place on the surface; there a pixel's size is the mean of its sides.
 float gn_pcss_noise(GnReceiver receiver, GnPcssParams params) {
@@ -32,7 +39,9 @@ struct GnPcssFound {
 GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light,
                            GnPcssParams params, float noise) {
     GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
+    // Half a texel farther a tap reads the texel beside the one that it falls into.
+    float least = params.least + (GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? 0.5 : 0.0);
+    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, least, params.early_out != 0);
     GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
@@ -60,6 +69,12 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
     return result;
 }
 
+// The share of a tap of the filter that is lit.
+float gn_pcss_lit(GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnPcssParams params, vec2 tap_ts) {
+    return GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? gn_bilinear_tap(depth, at, tap_ts)
+                                              : gn_pcss_tap(at, depth, metres, tap_ts).lit ? 1.0 : 0.0;
+}
+
 float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     float noise = gn_pcss_noise(at.receiver, params);
@@ -78,7 +93,7 @@ float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     GnPcssPoints points = gn_pcss_points(half_light.square, taps, noise);
     float lit = 0.0;
     for (int i = 0; i < taps; ++i) {
-        lit += gn_pcss_tap(at, depth, metres, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points))).lit ? 1.0 : 0.0;
+        lit += gn_pcss_lit(at, depth, metres, params, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points)));
     }
     return lit / float(taps);
 }

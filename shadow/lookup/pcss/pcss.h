@@ -14,6 +14,9 @@
 #define GN_PCSS_OF_PIXEL 0
 #define GN_PCSS_OF_SURFACE 1
 
+#define GN_PCSS_ONE_TEXEL 0
+#define GN_PCSS_FOUR_TEXELS 1
+
 struct GnPcssParams {
     int blocker GN_DEFAULT(GN_PCSS_AVERAGE);
     int search_taps GN_DEFAULT(16);
@@ -23,6 +26,7 @@ struct GnPcssParams {
     int early_out GN_DEFAULT(1);
     int extremes GN_DEFAULT(GN_PCSS_TEXELS);
     int noise GN_DEFAULT(GN_PCSS_OF_SURFACE);
+    int tap GN_DEFAULT(GN_PCSS_ONE_TEXEL);
 };
 
 #endif

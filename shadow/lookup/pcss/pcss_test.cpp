@@ -152,6 +152,7 @@ TEST(PcssRendered, AHalfPlanesRampIsAsWideAsTheLightMakesIt) {
             expect_ramp(scene, "pcss", resolution, {.width = 128, .height = 96, .samples = 256}, noise);
         }
     }
+    expect_ramp("half-plane", "pcss,pcss.tap=bilinear", 512, {.width = 128, .height = 96, .samples = 256}, noise);
     expect_ramp("half-plane", "pcss,pcss.noise=pixel", 512, {.width = 128, .height = 96, .samples = 256}, noise);
 }
 
@@ -230,6 +231,13 @@ TEST(PcssRendered, EarlyOutsChangeNoSample) {
         const auto without =
             test::compare(scene, "pcss,resolution=512,pcss.early_out=false", {.width = 96, .height = 72, .samples = 4});
         EXPECT_EQ(with.visibility().values, without.visibility().values) << scene;
+    }
+    const test::ComparisonOptions coarse{.width = 96, .height = 72, .samples = 4};
+    for (const char* scene : {"half-plane", "contact:light=spot"}) {
+        const std::string bilinear = "pcss,resolution=128,pcss.tap=bilinear,pcss.least=0.5";
+        EXPECT_EQ(test::compare(scene, bilinear, coarse).visibility().values,
+                  test::compare(scene, bilinear + ",pcss.early_out=false", coarse).visibility().values)
+            << scene << ", bilinear taps";
     }
     // Blocks know less, and what they decide is as certain.
     const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 4};

@@ -247,7 +247,7 @@ ParamTable rows() {
             GnCascadesParams, simpler, real, 0, 16, "texels",
             "Draws meshes of fewer triangles into all maps but the first, which differ from those of the scene by so "
             "many of a map's texels at most and are seen as much farther from the light: faster where meshes are fine, "
-            "edges and contacts are off by that, and what moves is simplified anew in every frame; of stable windows."),
+            "edges and contacts are off by that, and what bends is simplified anew in every frame; of stable windows."),
         GN_PARAM(
             GnCascadesParams, mask, boolean, 0, 1, "",
             "Leaves an object out of every map in which it falls onto nothing that the camera sees of the slice: the "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Far maps draw meshes of fewer triangles, which are seen within their error of where those of the scene are; the first map does not.
 #include "shadow/casters/simpler.h"
+#include "shadow/frame/history.h"
+#include "shadow/scene/move.h"
 #include "tests/cascade_frame.h"
 #include "tests/direct_scenes.h"
 
@@ -103,6 +105,92 @@ TEST(CascadesRendered, FarMapsDrawFewTriangles) {
     }
     EXPECT_EQ(simpler_casters(input, views.simpler), simpler) << "made once";
     graph.execute(false);
+}
+
+/// Counts how often anything is simplified while it lives.
+class Counted {
+  public:
+    Counted() : own_(simplifier()) {
+        behind() = own_;
+        count() = 0;
+        simplifier() = [](std::span<const vec3> positions, std::span<const std::uint32_t> indices, std::size_t wanted,
+                          float most_error) {
+            ++count();
+            return behind()(positions, indices, wanted, most_error);
+        };
+    }
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+    ~Counted() { simplifier() = own_; }
+    /// Since it was asked last.
+    static int taken() { return std::exchange(count(), 0); }
+
+  private:
+    Simplifier own_;
+    static Simplifier& behind() {
+        static Simplifier kept = nullptr;
+        return kept;
+    }
+    static int& count() {
+        static int kept = 0;
+        return kept;
+    }
+};
+
+/// Two rings stand in one place until one of them leaves it: each has meshes of vertices of its own. Where a caster turns and
+/// walks nothing is simplified and the maps are as good as those of a frame by itself; where it is stretched it alone is.
+TEST(CascadesRendered, SimplerMeshesGoOnWithCastersThatMoveRigidly) {
+    const ValidationGuard guard;
+    by_hand::SceneBuilder b;
+    b.ground(60).light(by_hand::sun({0.4F, -1, 0.3F}));
+    b.box({20, 0, -40}, {22, 12, -38});  // what moves stays within the scene's bounds
+    b.torus({-3, 3, -30}, 2, 0.8F, 24).torus({-3, 3, -30}, 2, 0.8F, 24).torus({4, 3, -12}, 2, 0.8F, 24);
+    Scene scene = b.scene();
+    scene.cameras = {{.position_ws = vec3(0, 6, 12), .forward_ws = glm::normalize(vec3(0, -0.35F, -1)), .far = 80}};
+    std::size_t ring = 0;
+    while (scene.objects[ring].triangle_count < 32) {
+        ++ring;
+    }
+    ++ring;  // the second one, whose vertices the first has, too
+    SceneGpu gpu = upload_scene(device(), scene);
+    const PreparedRecipe prepared(device(), load_recipe(fmt::format("{}{}", recipe, texels)));
+    const PreparedRecipe own(device(), load_recipe(recipe + "0"));
+    const Counted counted;
+    History history(device());
+    const auto drawn = [&](const PreparedRecipe& text, History* kept) {
+        refresh_scene(device(), gpu);
+        FrameOptions options{.width = 96, .height = 64, .samples = false, .picture = false};
+        options.history = kept;
+        return render_frame(gpu, scene.cameras[0], text, options).visibility[0].values;
+    };
+    const auto wrong = [&](const std::vector<float>& v) {
+        const auto truth = drawn(own, nullptr);
+        int different = 0;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            different += v[i] != truth[i] ? 1 : 0;
+        }
+        return different;
+    };
+    const int at_rest = wrong(drawn(prepared, &history));
+    EXPECT_GT(Counted::taken(), 0);
+    const mat4 walk = glm::translate(mat4(1), vec3(0.4F, 0.1F, 1.3F));
+    const vec3 middle(-3, 3, -30);
+    for (int frame = 0; frame < 3; ++frame) {
+        const mat4 turn = glm::translate(mat4(1), middle) *
+                          glm::rotate(mat4(1), 0.3F, glm::normalize(vec3(1, 2, 0.5F))) *
+                          glm::translate(mat4(1), -middle);
+        move_object(scene, ring, frame == 0 ? turn : walk);
+        const auto moved = drawn(prepared, &history);
+        EXPECT_EQ(Counted::taken(), 0) << frame;
+        // As many samples at rims, give or take what chance makes of them.
+        EXPECT_LE(wrong(moved), 2 * at_rest + 20) << frame;
+        EXPECT_EQ(Counted::taken(), 0);
+    }
+    move_object(scene, ring, glm::scale(mat4(1), vec3(1.2F, 1, 1)));
+    static_cast<void>(drawn(prepared, &history));
+    EXPECT_EQ(Counted::taken(), 2) << "one ring, two maps";
+    static_cast<void>(drawn(prepared, nullptr));
+    EXPECT_EQ(Counted::taken(), 0) << "made for this version";
 }
 
 /// Each map has a refusal of its own where sizes of texels change, or where one pass draws all.

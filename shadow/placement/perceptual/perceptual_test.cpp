@@ -3,8 +3,12 @@
 #include "shadow/placement/perceptual/perceptual.glsl"
 #include "shadow/frame/history.h"
 #include "shadow/receiver/light_plane.glsl"
+#include "shadow/recipe/guard.h"
+#include "shadow/shading/tonemap.h"
+#include "tests/thorough.h"
 #include "tests/warp_scene.h"
 
+#include <array>
 #include <cmath>
 
 namespace gn::perceptual_test {
@@ -88,8 +92,11 @@ TEST(Perceptual, ATexelIsTheRadiusOverCAlongBothAxes) {
     // A share of the scene's diagonal, for a kernel in texels.
     scene = test::long_floor(2, 60);
     const double diagonal = static_cast<double>(scene.bounds_ws.diagonal());
-    const Drawn share = drawn_of(scene, "perceptual,perceptual.radius=0.01,resolution=4096");
-    EXPECT_NEAR(share.side.x / (0.01 * diagonal / static_cast<double>(c)), 1, 8.0 / share.texels.x);
+    const std::string recipe = "perceptual,perceptual.radius=0.01,resolution=4096";
+    const Drawn share = drawn_of(scene, recipe);
+    // A block is that share of the texels that the guard leaves.
+    const double guard = static_cast<double>(guard_of(load_recipe(recipe), scene.lights[0], scene.bounds_ws).texels);
+    EXPECT_NEAR(share.side.x / (0.01 * diagonal / static_cast<double>(c)), 1, 8 / (share.texels.x - 2 * guard));
 }
 
 TEST(Perceptual, DrawsAllWhereTheFilterHasNoSize) {
@@ -111,9 +118,9 @@ TEST(PerceptualRendered, APartOfAMapIsAsGoodAsAMap) {
     SceneGpu gpu = upload_scene(test::device(), scene);
     const FrameOptions options{.width = 96, .height = 64, .only_light = 0, .samples = false, .picture = false};
     for (const std::string recipe :
-         {"pcf,pcf.kernel=vogel,pcf.radius=3.47", "vsm,vsm.blur=gaussian,vsm.radius=4",
-          "evsm4,evsm.blur=box,evsm.radius=3", "convolution,convolution.blur=box,convolution.radius=3",
-          "pcss,pcss.extremes=blocks"}) {
+         {"pcf,pcf.kernel=vogel,pcf.radius=3.47", "pcf,pcf.kernel=vogel,pcf.radius=3.47,pcf.tap=bilinear",
+          "vsm,vsm.blur=gaussian,vsm.radius=4", "evsm4,evsm.blur=box,evsm.radius=3",
+          "convolution,convolution.blur=box,convolution.radius=3", "pcss,pcss.extremes=blocks"}) {
         const auto drawn = [&](int resolution) {
             return render_frame(test::device(), gpu, scene.camera(""),
                                 load_recipe(fmt::format("{},placement=perceptual,perceptual.radius=0.01,resolution={}",
@@ -179,6 +186,86 @@ TEST(PerceptualRendered, PcssDrawsWhatItsSmallestFilterAsksFor) {
     const LightViews fit = test::place(scene, "pcss,placement=fit,resolution=1024", 96, 96);
     const float extent = glsl::gn_light_plane(fit.views[0]).x * (1 - 2 * (reach.texels + 1) / 1024);
     EXPECT_NEAR(static_cast<float>(texels->x), c * extent / radius + 2 * (reach.texels + 1), 12);
+}
+
+/// How far a picture lies from that of the full map with the same lookup: mean FLIP, and the root mean square of V's difference.
+struct Apart {
+    double flip = 0, rms = 0;
+};
+
+Apart apart(const FrameResult& frame, const FrameResult& full) {
+    const float exposure = automatic_exposure(full.picture);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t light = 0; light < full.visibility.size(); ++light) {
+        const std::vector<float>& v = full.visibility[light].values;
+        for (std::size_t i = 0; i < v.size(); ++i, ++count) {
+            const auto d = static_cast<double>(frame.visibility[light].values[i] - v[i]);
+            sum += d * d;
+        }
+    }
+    return {flip(tonemap(frame.picture, exposure), tonemap(full.picture, exposure)),
+            std::sqrt(sum / static_cast<double>(count))};
+}
+
+struct AgainstFull {
+    Apart at_c, at_half;  ///< c = 3.47, and half of it
+    Apart elsewhere;      ///< a full map again, of 8 texels less a side, so that all lie elsewhere
+};
+
+AgainstFull against_full(const char* scene_name, const std::string& recipe) {
+    const Scene& scene = test::built_in(scene_name);
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const FrameOptions options{.width = 160, .height = 90, .samples = false};
+    const auto drawn = [&](const std::string& placement) {
+        return render_frame(test::device(), gpu, scene.camera(""),
+                            load_recipe(recipe + ",resolution=2048,placement=" + placement), options);
+    };
+    const FrameResult full = drawn("fit+auto");
+    AgainstFull result;
+    result.at_c = apart(drawn("perceptual+auto,perceptual.c=3.47"), full);
+    result.at_half = apart(drawn("perceptual+auto,perceptual.c=1.735"), full);
+    if (test::thorough()) {
+        result.elsewhere = apart(drawn("fit+auto,resolution=2040"), full);
+        fmt::print(
+            "{} {}: flip {:.4f}, c / 2 {:.4f}, elsewhere {:.4f}; rms of V {:.4f}, c / 2 {:.4f}, elsewhere {:.4f}\n",
+            scene_name, recipe, result.at_c.flip, result.at_half.flip, result.elsewhere.flip, result.at_c.rms,
+            result.at_half.rms, result.elsewhere.rms);
+    }
+    return result;
+}
+
+/// Observers asked for c = 3.47: FLIP from the full map's picture is 0.02 at most then, and half of it errs more. Bilinear taps
+/// leave less of V's difference than single texels do.
+TEST(PerceptualRendered, ItsPictureIsAsCloseToTheFullMapsAsTheFilterAsks) {
+    struct Row {
+        const char* scene;
+        std::string recipe;
+    };
+    const std::string disc = "pcf,pcf.kernel=rotated-poisson,pcf.taps=25,pcf.radius_world=";
+    std::vector<Row> rows = {{"car", disc + "0.15"}, {"boxes", disc + "0.15"}};
+    if (test::thorough()) {
+        rows.push_back({"warehouse-inside", disc + "1.2"});
+        rows.push_back({"car", "pcss"});
+        rows.push_back({"warehouse-inside", "pcss"});
+    }
+    for (const auto& [scene, recipe] : rows) {
+        const std::string tap = "," + recipe.substr(0, recipe.find(',')) + ".tap=";
+        const AgainstFull texel = against_full(scene, recipe + tap + "texel");
+        const AgainstFull bilinear = against_full(scene, recipe + tap + "bilinear");
+        EXPECT_LE(bilinear.at_c.flip, 0.02) << scene << " " << recipe;
+        EXPECT_GT(bilinear.at_c.rms, 1e-3) << scene << " " << recipe << " draws all texels";
+        EXPECT_GE(bilinear.at_half.rms, 1.1 * bilinear.at_c.rms) << scene << " " << recipe;
+        EXPECT_LE(bilinear.at_c.rms, 0.95 * texel.at_c.rms) << scene << " " << recipe;
+    }
+    if (test::thorough()) {
+        // Leaves smaller than texels: full maps with texels elsewhere differ nearly as much.
+        const AgainstFull leaves = against_full("courtyard", disc + "0.15,pcf.tap=bilinear");
+        EXPECT_LE(leaves.at_c.flip, 1.5 * leaves.elsewhere.flip);
+        against_full("courtyard", disc + "0.15,pcf.tap=texel");
+        against_full("courtyard", "pcss,pcss.tap=texel");
+        against_full("courtyard", "pcss,pcss.tap=bilinear");
+    }
 }
 
 }  // namespace
