@@ -10,8 +10,8 @@ std::vector<std::string> few_samples(const Errors& errors, const std::string& li
     std::vector<std::string> said;
     const auto say = [&](const char* figure, std::size_t count, const char* found) {
         if (count > 0 && count * enough < errors.samples) {
-            said.push_back(fmt::format("'{}' of light '{}' is told by {} of {} samples, those that the truth finds {}", figure,
-                                       light, count, errors.samples, found));
+            said.push_back(fmt::format("'{}' of light '{}' is told by {} of {} samples, those that the truth finds {}",
+                                       figure, light, count, errors.samples, found));
         }
     };
     say("leak", errors.dark, "dark");
