@@ -92,7 +92,9 @@ TEST(Spoken, ManyNotesOfAKindAreOneLine) {
 }
 
 TEST(Spoken, RemarksOfARecipeStandInTheJson) {
-    const CommandResult compared = compare("courtyard", {"pcf,placement=cascades"});
+    const SceneFolder folder(looking + std::string(sun) +
+                             "[[light]]\nkind = \"point\"\nname = \"lamp\"\nposition = [0, 3, 0]\nintensity = 10\n");
+    const CommandResult compared = compare(folder.scene(), {"pcf,placement=cascades,resolution=64"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     const json run = json::parse(compared.out).at("runs").at(0);
     expect_has(run.at("remarks").dump(), {"placement 'cascades' serves directional"});
