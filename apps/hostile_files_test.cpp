@@ -60,7 +60,8 @@ TEST(HostileFiles, EndAsTheirIndexWants) {
     for (const auto& [model, wanted] : all) {
         const ScratchFolder folder;
         const std::string picture = folder / "picture.png";
-        RunningCommand command({"render", model.string(), "-r", "pcf", "--size", "64x64", "-o", picture});
+        RunningCommand command(
+            {"render", model.string(), "-r", "hard,resolution=64", "--size", "64x64", "-o", picture});
         const CommandResult result = command.wait(20);
         if (result.status == 0) {
             EXPECT_NE(wanted, Wanted::sentence) << model << " was taken";

@@ -92,7 +92,9 @@ TEST(Spoken, ManyNotesOfAKindAreOneLine) {
 }
 
 TEST(Spoken, RemarksOfARecipeStandInTheJson) {
-    const CommandResult compared = compare("courtyard", {"pcf,placement=cascades"});
+    const SceneFolder folder(looking + std::string(sun) +
+                             "[[light]]\nkind = \"point\"\nname = \"lamp\"\nposition = [0, 3, 0]\nintensity = 10\n");
+    const CommandResult compared = compare(folder.scene(), {"pcf,placement=cascades,resolution=64"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     const json run = json::parse(compared.out).at("runs").at(0);
     expect_has(run.at("remarks").dump(), {"placement 'cascades' serves directional"});
@@ -117,7 +119,9 @@ TEST(Spoken, ACameraThatSeesNothingMeasuresNothing) {
 
 TEST(Spoken, ALightThatReachesNoSampleSaysSo) {
     const SceneFolder folder(looking + std::string(sun) +
-                             "[[light]]\nkind = \"point\"\nname = \"far\"\nposition = [0, 90, 0]\nrange = 1\n");
+                             "[[light]]\nkind = \"point\"\nname = \"far\"\nposition = [0, 90, 0]\nrange = 1\n"
+                             "[[light]]\nkind = \"directional\"\nname = \"small\"\ndirection = [1, -2, 0]\n"
+                             "angular_radius_deg = 0.2\n");
     const CommandResult compared = compare(folder.scene(), {"hard"});
     ASSERT_EQ(compared.status, 0) << compared.err;
     expect_has(compared.err, {"'far' reaches no sample", "less than 0.06 degrees"});
@@ -126,6 +130,12 @@ TEST(Spoken, ALightThatReachesNoSampleSaysSo) {
     EXPECT_EQ(run.at("lights").at(0).at("status"), "ok");
     EXPECT_EQ(run.at("lights").at(1).at("status"), "empty");
     expect_has(run.at("lights").at(1).at("reason").get<std::string>(), {"'far' reaches no sample"});
+    // Nor is it told in silence that a figure is one of few samples: a penumbra of a centimetre is one of some pixels.
+    const json small = run.at("lights").at(2), found = small.at("found");
+    EXPECT_EQ(found.at("dark").get<int>() + found.at("lit").get<int>() + found.at("partial").get<int>(),
+              small.at("samples").get<int>());
+    EXPECT_GT(found.at("partial").get<int>(), 0);
+    expect_has(run.at("remarks").dump(), {"'penumbra' of light 'small' is told by"});
     // Alone it leaves nothing to measure, which --strict does not pass.
     const CommandResult alone = compare(folder.scene(), {"hard", "--light", "far", "--strict"});
     EXPECT_EQ(alone.status, 1) << alone.err;

@@ -3,7 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gn {
+namespace {
+
+/// Mesa's software driver takes numbers that a branch depends on for constants, and compiles a shader anew for others. Wherever it takes
+/// one it takes the block's first number too (seen with Mesa 22.3), which is a light's place more often than not: every light, and every
+/// step of one that moves, cost a compilation. So the first number of a block is one that never changes.
+constexpr std::string_view first_member = "    uvec4 unread;\n";
+constexpr std::size_t first_bytes = 16;
+
+}  // namespace
 
 std::string_view image_format(VkFormat format) {
     switch (format) {
@@ -92,6 +103,7 @@ ShaderInputs& ShaderInputs::block(std::string_view kind, std::string_view block,
 ShaderInputs& ShaderInputs::constant_bytes(std::string_view type, std::string_view name,
                                            std::span<const std::byte> bytes) {
     List& list = own();
+    list.constants.resize(std::max(list.constants.size(), first_bytes));
     list.constant_members.append("    ").append(type).append(" ").append(name).append(";\n");
     list.constants.insert(list.constants.end(), bytes.begin(), bytes.end());
     return *this;
@@ -102,7 +114,10 @@ ShaderInputs& ShaderInputs::add(const ShaderInputs& others) {
     List& list = own();
     list.entries.insert(list.entries.end(), more->entries.begin(), more->entries.end());
     list.constant_members += more->constant_members;
-    list.constants.insert(list.constants.end(), more->constants.begin(), more->constants.end());
+    if (!more->constants.empty()) {
+        list.constants.resize(std::max(list.constants.size(), first_bytes));
+        list.constants.insert(list.constants.end(), more->constants.begin() + first_bytes, more->constants.end());
+    }
     return *this;
 }
 
@@ -138,8 +153,8 @@ std::string ShaderInputs::text(unsigned first) const {
         text += declaration(entry, first++);
     }
     if (!list_->constants.empty()) {
-        text +=
-            fmt::format("layout(binding = {}, scalar) uniform Constants {{\n{}}} u;\n", first, list_->constant_members);
+        text += fmt::format("layout(binding = {}, scalar) uniform Constants {{\n{}{}}} u;\n", first, first_member,
+                            list_->constant_members);
     }
     return text;
 }

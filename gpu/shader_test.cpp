@@ -2,6 +2,7 @@
 // Composition, error sentences, the disk cache and reflection; needs no device.
 #include "gpu/pipeline_cache.h"
 #include "gpu/shader_cache.h"
+#include "gpu/shader_inputs.h"
 #include "gpu/spirv.h"
 #include "gpu/test_device.h"
 
@@ -15,6 +16,16 @@ namespace gn::shader_test {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(ShaderInputs, ConstantsBeginWithANumberThatNeverChanges) {
+    ShaderInputs none, inputs, more;
+    EXPECT_EQ(none.text(), "");
+    more.constant("float", "second", 2.0F);
+    inputs.constant("vec4", "first", vec4(1)).add(more).add(none);
+    EXPECT_EQ(inputs.text(3),
+              "layout(binding = 3, scalar) uniform Constants {\n    uvec4 unread;\n    vec4 first;\n    float "
+              "second;\n} u;\n");
+}
 
 /// A folder of its own for each test, with includes in it and a cache beside.
 class Shaders : public ::testing::Test {

@@ -6,6 +6,7 @@
 #include "apps/notes.h"
 #include "apps/output.h"
 #include "apps/reach.h"
+#include "shadow/metrics/few.h"
 #include "shadow/recipe/recipe_set.h"
 #include "shadow/shading/illuminance.h"
 #include "shadow/shading/tonemap.h"
@@ -200,6 +201,9 @@ std::vector<bool> measure_lights(RunResult& run, ViewSession& view, Bench& bench
             light.errors = errors_of(frame.visibility[l], view.samples(), view.scene().lights[l].shape, truth,
                                      explained_acne(view, bench, recipe, frame.visibility[l], l, truth),
                                      other_of(run, against, l, light.name, frame.visibility[l].channels));
+            for (std::string& remark : few_samples(light.errors, light.name)) {
+                run.remarks.push_back(std::move(remark));
+            }
             const std::vector<float> m = counted_texels(view, bench, recipe, frame.visibility[l], l, truth);
             judge_texels(light.errors, m);
             texels.insert(texels.end(), m.begin(), m.end());

@@ -46,12 +46,22 @@ WeightedErrors weighted_from(const ordered_json& json) {
     return errors;
 }
 
-Errors errors_from(const ordered_json& json, std::size_t samples) {
+/// What leak, acne and penumbra are means of.
+ordered_json found_json(const Errors& errors) {
+    return {{"dark", errors.dark}, {"lit", errors.lit}, {"partial", errors.partial}};
+}
+
+/// Of a light or a run.
+Errors errors_from(const ordered_json& json) {
     Errors errors;
-    errors.samples = samples;
+    errors.samples = json.at("samples");
+    errors.dark = json.at("found").at("dark");
+    errors.lit = json.at("found").at("lit");
+    errors.partial = json.at("found").at("partial");
     for (const MetricInfo& metric : all_metrics()) {
-        errors.*metric.value = optional_number(json.at(std::string(metric.name)));
+        errors.*metric.value = optional_number(json.at("error").at(std::string(metric.name)));
     }
+    errors.weighted = weighted_from(json.at("weighted"));
     return errors;
 }
 
@@ -76,6 +86,7 @@ ordered_json light_json(const LightResult& light, bool for_report) {
                       {"status", name_of(light.status)},
                       {"reason", light.reason},
                       {"samples", light.errors.samples},
+                      {"found", found_json(light.errors)},
                       {"error", errors_json(light.errors)},
                       {"weighted", weighted_json(light.errors.weighted)}};
     if (for_report) {
@@ -197,6 +208,7 @@ ordered_json run_json(const RunResult& run, bool for_report) {
                       {"status", name_of(run.status)},
                       {"reason", run.reason},
                       {"samples", run.errors.samples},
+                      {"found", found_json(run.errors)},
                       {"error", errors_json(run.errors)},
                       {"weighted", weighted_json(run.errors.weighted)},
                       {"lights", lights},
@@ -224,16 +236,14 @@ RunResult run_from_json(const ordered_json& json) {
     run.status = status_from(json.at("status"));
     run.reason = json.at("reason");
     // The figures.
-    run.errors = errors_from(json.at("error"), json.at("samples"));
-    run.errors.weighted = weighted_from(json.at("weighted"));
+    run.errors = errors_from(json);
     if (json.contains("shaded")) {
         run.shaded_luma_rms = optional_number(json.at("shaded").at("luma_rms"));
         run.shaded_flip = optional_number(json.at("shaded").at("flip"));
     }
     for (const ordered_json& light : json.at("lights")) {
-        run.lights.push_back({light.at("name"), status_from(light.at("status")), light.at("reason"),
-                              errors_from(light.at("error"), light.at("samples")), light.at("error_map")});
-        run.lights.back().errors.weighted = weighted_from(light.at("weighted"));
+        run.lights.push_back({light.at("name"), status_from(light.at("status")), light.at("reason"), errors_from(light),
+                              light.at("error_map")});
     }
     run.shadow = spread_from(json.at("time_ms").at("shadow"));
     run.frame = spread_from(json.at("time_ms").at("frame"));

@@ -125,6 +125,10 @@ function lightTable(scene, runs) {
     {title: 'status', text: true, value: row => row.light.status, show: row => statusOf(row.light)},
     {title: 'samples', hint: 'View samples that count for this light', value: row => row.light.samples,
       show: row => row.light.samples.toLocaleString('en')},
+    {title: 'lit', hint: 'Of them, those that the truth finds lit: what acne is the mean of', value: row => row.light.found.lit,
+      show: row => row.light.found.lit.toLocaleString('en')},
+    {title: 'dark', hint: 'Of them, those that the truth finds dark: what leak is the mean of', value: row => row.light.found.dark,
+      show: row => row.light.found.dark.toLocaleString('en')},
     ...metricColumns(row => row.light.error).filter(column => !['luma_rms', 'flip'].includes(column.title)),
     ...weightedColumns(row => row.light.weighted),
     {title: 'error map', text: true, value: row => row.light.error.rmse, show: row => row.light.reason

@@ -170,11 +170,9 @@ GN_FN vec3 gn_towards(vec3 origin_ws, vec4 light_ws) {
     return vec3(light_ws) - origin_ws * light_ws.w;
 }
 
-// Whether the triangle hides the light from the sample, asked alone; a mask is taken for whole.
-GN_FN bool gn_occluder_hides(GnOccluder t, vec3 p_ws, vec3 n_ws, vec4 light_ws) {
-    GnOcclusion o = gn_occlusion(t, p_ws, n_ws);
-    vec3 origin_ws = gn_ray_origin(p_ws, n_ws);
-    return o.hides && gn_plane_between(o, t, origin_ws, light_ws) &&
+// Whether the triangle stands on the way to the light, for a sample that is not meant to lie on it; a mask is taken for whole.
+GN_FN bool gn_in_the_way(GnOcclusion o, GnOccluder t, vec3 origin_ws, vec4 light_ws) {
+    return gn_plane_between(o, t, origin_ws, light_ws) &&
            gn_within(gn_hit_shares(o.edges, gn_towards(origin_ws, light_ws)));
 }
 
@@ -197,8 +195,7 @@ GN_FN uint gn_occluder_says(GnOccluder t, vec3 p_ws, vec3 n_ws, vec4 light_ws) {
     float reach = gn_seat_ulps * gn_ulp * max(max(magnitude.x, magnitude.y), magnitude.z);
     float facing = abs(dot(o.n, n_ws));
     bool seat = facing > 0.99f && abs(dot(o.n, p_ws - t.a)) <= reach * facing && gn_within(gn_hit_shares(o.edges, n_ws));
-    bool hides = o.able && gn_plane_between(o, t, origin_ws, light_ws) &&
-                 gn_within(gn_hit_shares(o.edges, gn_towards(origin_ws, light_ws)));
+    bool hides = o.able && gn_in_the_way(o, t, origin_ws, light_ws);
     return (seat && o.holds ? gn_says_holds : 0u) | (hides ? (seat ? gn_says_over : gn_says_hidden) : 0u);
 }
 

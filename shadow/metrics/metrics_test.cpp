@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shadow/metrics/metrics.h"
 
+#include "shadow/metrics/few.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,6 +32,22 @@ TEST(Metrics, ChannelsOfOneLightArePooledAndCountEachSampleOnce) {
     EXPECT_NEAR(*pooled.acne, 0.5 / 3, 1e-12);
     EXPECT_NEAR(*pooled.leak, 0.25 / 3, 1e-12);
     EXPECT_NEAR(*pooled.rmse, std::sqrt((0.25 + 0.0625) / 6), 1e-12);
+}
+
+TEST(Metrics, AFigureThatFewSamplesTellSaysSo) {
+    // 1000 samples: two are more than none and not fewer than one in 500.
+    Errors errors{.samples = 1000};
+    errors.dark = 997;
+    errors.lit = 1;
+    errors.partial = 2;
+    EXPECT_EQ(few_samples(errors, "sun"),
+              (std::vector<std::string>{
+                  "'acne' of light 'sun' is told by 1 of 1000 samples, those that the truth finds lit"}));
+    errors.dark = 999;
+    errors.lit = 0;
+    errors.partial = 1;
+    EXPECT_EQ(few_samples(errors, "sun").size(), 1U);
+    EXPECT_EQ(few_samples(Errors{}, "sun"), std::vector<std::string>{});
 }
 
 TEST(Metrics, HandComputedPicture) {

@@ -64,6 +64,7 @@ LightViews place_on_gpu(const FrameInput& input, const Recipe& recipe) {
         GnLightView unknown;
         unknown.resolution = static_cast<float>(seeds.resolution);
         if (!made.tiles) {
+            unknown.resolution = seeds.views[i].resolution;
             unknown.layer = seeds.views[i].layer;
             unknown.rect_ts = seeds.views[i].rect_ts;
         }
@@ -129,10 +130,8 @@ std::vector<float> visibility(const Scene& scene, const Recipe& recipe, History*
     return frame.visibility.front().values;
 }
 
-Both both(const std::string& scene_name, const std::string& text, bool tiles) {
+Both both(const Scene& scene, Recipe recipe, bool tiles) {
     const test::ValidationGuard guard;
-    const Scene scene = load_scene(scene_name);
-    Recipe recipe = load_recipe(text);
     Both result;
     result.cpu = visibility(scene, recipe);
     made = {recipe.placement, tiles, nullptr};
@@ -142,6 +141,22 @@ Both both(const std::string& scene_name, const std::string& text, bool tiles) {
     result.gpu = visibility(scene, recipe);
     result.expect_contents();
     return result;
+}
+
+Both both(const std::string& scene, const std::string& text, bool tiles) {
+    return both(load_scene(scene), load_recipe(text), tiles);
+}
+
+struct Odd {
+    const Part* of = nullptr;
+    void (*change)(std::vector<GnLightView>& views) = nullptr;
+} odd;
+
+/// The views of odd.of, one of them unlike the others.
+LightViews place_odd(const FrameInput& input, const Recipe& recipe) {
+    LightViews views = odd.of->place(input, recipe);
+    odd.change(views.views);
+    return views;
 }
 
 TEST(GpuViews, TilesCoverTheirTexelsAndNoOthers) {
@@ -171,6 +186,32 @@ TEST(GpuViewsRendered, OfEveryKindGiveTheSameVisibilityAsThoseOfTheCpu) {
           {"contact", "pcf,placement=lispsm,resolution=256,bias.receiver_plane=true"}}) {
         EXPECT_EQ(both(scene, recipe, false).differing(), 0U) << recipe;
     }
+}
+
+TEST(GpuViewsRendered, WhatOneViewHasOtherwiseIsReadOfItself) {
+    // What all views agree in the CPU tells the shader, or has it read of the first. Of views that the GPU makes it tells nothing: where
+    // one is unlike the others, both must still see the same.
+    const Scene scene = load_scene("contact");
+    Recipe recipe = load_recipe("pcf,placement=cascades,resolution=256,bias.view=6");
+    const std::vector<float> alike = visibility(scene, recipe);
+    Part part = *recipe.placement;
+    part.place = place_odd;
+    odd.of = recipe.placement;
+    recipe.placement = &part;
+    const auto with = [&](const char* what, void (*change)(std::vector<GnLightView>&)) {
+        odd.change = change;
+        const Both found = both(scene, recipe, false);
+        EXPECT_EQ(found.differing(), 0U) << what;
+        return found.cpu;
+    };
+    EXPECT_NE(with("eye",
+                   [](std::vector<GnLightView>& views) {
+                       views.at(1).eye_ws = vec4(glm::normalize(vec3(views[1].eye_ws) + vec3(1, 0, 0.5F)), 0);
+                   }),
+              alike);
+    EXPECT_NE(with("texels", [](std::vector<GnLightView>& views) { views.at(1).resolution *= 0.25F; }), alike);
+    EXPECT_EQ(with("layer", [](std::vector<GnLightView>& views) { std::swap(views.at(0).layer, views.at(1).layer); }),
+              alike);
 }
 
 TEST(GpuViewsRendered, InTilesGiveTheSameVisibilityAsThoseOfTheCpu) {

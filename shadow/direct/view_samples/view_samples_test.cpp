@@ -177,8 +177,9 @@ TEST(MayHide, LeavesOutNoBoxInWhichASampleLosesAPoint) {
             for (int k = 0; k < 24 && !hides; ++k) {
                 const vec3 p = middle + half * any();
                 const vec3 n = glm::normalize(glsl::gn_towards(p, sampled.centre_ws));
+                const glsl::GnOcclusion o = glsl::gn_occlusion(t, p, n);
                 for (const vec4& point : points) {
-                    hides = hides || glsl::gn_occluder_hides(t, p, n, point);
+                    hides = hides || (o.hides && glsl::gn_in_the_way(o, t, glsl::gn_ray_origin(p, n), point));
                 }
             }
             hidden += hides ? 1 : 0;

@@ -35,11 +35,6 @@ void intersect(Left left, uint word, inout uint sure, inout uint maybe) {
     maybe &= (left.all | masks.y | left.blurred) & ~left.none;
 }
 
-bool hides_point(GnOcclusion o, GnOccluder t, vec3 origin_ws, vec4 light_ws) {
-    return gn_plane_between(o, t, origin_ws, light_ws) &&
-           gn_within(gn_hit_shares(o.edges, gn_towards(origin_ws, light_ws)));
-}
-
 void ask(uint place, uint triangle, GnOccluder t, bool crosses) {
     uvec4 at = points[2u * place];
     vec3 p_ws = uintBitsToFloat(at.xyz);
@@ -72,7 +67,7 @@ void ask(uint place, uint triangle, GnOccluder t, bool crosses) {
         rounds += 2u + uint(bitCount(left));
         for (; left != 0u; left &= left - 1u) {
             uint i = uint(findLSB(left));
-            sure |= hides_point(o, t, origin_ws, light_points[first + i]) ? 1u << i : 0u;
+            sure |= gn_in_the_way(o, t, origin_ws, light_points[first + i]) ? 1u << i : 0u;
         }
         cut = cut || left != 0u;
 #if GN_MASKED

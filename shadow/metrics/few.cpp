@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "shadow/metrics/few.h"
+
+#include "base/error.h"
+
+namespace gn {
+
+std::vector<std::string> few_samples(const Errors& errors, const std::string& light) {
+    constexpr std::size_t enough = 500;
+    std::vector<std::string> said;
+    const auto say = [&](const char* figure, std::size_t count, const char* found) {
+        if (count > 0 && count * enough < errors.samples) {
+            said.push_back(fmt::format("'{}' of light '{}' is told by {} of {} samples, those that the truth finds {}",
+                                       figure, light, count, errors.samples, found));
+        }
+    };
+    say("leak", errors.dark, "dark");
+    say("acne", errors.lit, "lit");
+    say("penumbra", errors.partial, "in between");
+    return said;
+}
+
+}  // namespace gn
