@@ -53,8 +53,8 @@ std::optional<ParallelViews> parallel_views(const LightViews& views) {
     }
     ParallelViews parallel{{x->direction, y->direction, depth->direction}, {}};
     for (std::size_t i = 0; i < count; ++i) {
-        parallel.places.push_back({vec4(x->places[i].x, y->places[i].x, x->places[i].y, y->places[i].y),
-                                   vec4(vec2(depth->places[i]), 0, 0)});
+        parallel.places.push_back(
+            {vec4(x->places[i].x, y->places[i].x, x->places[i].y, y->places[i].y), vec4(vec2(depth->places[i]), 0, 0)});
     }
     return parallel;
 }

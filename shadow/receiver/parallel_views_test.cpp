@@ -19,12 +19,12 @@ void expect_same(const GnLightView& made, const GnLightView& view, const Box& bo
         };
         for (int row = 0; row < 2; ++row) {
             const vec4 was = glm::row(view.cs_from_ws, row);
-            EXPECT_NEAR(glm::dot(dvec4(glm::row(made.cs_from_ws, row)), dvec4(p_ws, 1)), glm::dot(dvec4(was), dvec4(p_ws, 1)),
-                        size(was))
+            EXPECT_NEAR(glm::dot(dvec4(glm::row(made.cs_from_ws, row)), dvec4(p_ws, 1)),
+                        glm::dot(dvec4(was), dvec4(p_ws, 1)), size(was))
                 << recipe;
         }
-        EXPECT_NEAR(glm::dot(dvec4(made.depth_from_ws), dvec4(p_ws, 1)), glm::dot(dvec4(view.depth_from_ws), dvec4(p_ws, 1)),
-                    size(view.depth_from_ws))
+        EXPECT_NEAR(glm::dot(dvec4(made.depth_from_ws), dvec4(p_ws, 1)),
+                    glm::dot(dvec4(view.depth_from_ws), dvec4(p_ws, 1)), size(view.depth_from_ws))
             << recipe;
     }
 }
@@ -32,8 +32,9 @@ void expect_same(const GnLightView& made, const GnLightView& view, const Box& bo
 TEST(ParallelViews, CascadesAreTheirAxesScalesAndOffsets) {
     for (const char* scene_name : {"corridor", "courtyard"}) {
         const Scene scene = load_scene(scene_name);
-        for (const char* recipe : {"hard,placement=cascades", "hard,placement=cascades,cascades.count=3,cascades.split=log",
-                                   "pcss,placement=cascades,cascades.scroll=1"}) {
+        for (const char* recipe :
+             {"hard,placement=cascades", "hard,placement=cascades,cascades.count=3,cascades.split=log",
+              "pcss,placement=cascades,cascades.scroll=1"}) {
             const LightViews views = test::place(scene, recipe);
             const auto parallel = parallel_views(views);
             ASSERT_TRUE(parallel.has_value()) << recipe;
@@ -43,7 +44,8 @@ TEST(ParallelViews, CascadesAreTheirAxesScalesAndOffsets) {
                 GnLightView blank = views.views[i];
                 blank.cs_from_ws = mat4(0);
                 blank.depth_from_ws = vec4(0);
-                expect_same(gn_along_axes(blank, parallel->axes, parallel->places[i]), views.views[i], scene.bounds_ws, recipe);
+                expect_same(gn_along_axes(blank, parallel->axes, parallel->places[i]), views.views[i], scene.bounds_ws,
+                            recipe);
             }
         }
     }
@@ -52,9 +54,11 @@ TEST(ParallelViews, CascadesAreTheirAxesScalesAndOffsets) {
 TEST(ParallelViews, OthersAreTakenAsTheyAre) {
     const Scene scene = load_scene("corridor");
     EXPECT_FALSE(parallel_views(test::place(scene, "hard,placement=fit"))) << "one view";
-    EXPECT_FALSE(parallel_views(test::place(scene, "hard,placement=cascades,cascades.count=6"))) << "more than are taken";
+    EXPECT_FALSE(parallel_views(test::place(scene, "hard,placement=cascades,cascades.count=6")))
+        << "more than are taken";
     EXPECT_FALSE(parallel_views(test::place(scene, "hard,placement=cascades,cascades.fit=warped"))) << "not affine";
-    EXPECT_FALSE(parallel_views(test::place(load_scene("courtyard"), "hard,placement=cascades,cascades.fit=fitted"))) << "turned";
+    EXPECT_FALSE(parallel_views(test::place(load_scene("courtyard"), "hard,placement=cascades,cascades.fit=fitted")))
+        << "turned";
     LightViews views = test::place(scene, "hard,placement=cascades");
     GnLightView& last = views.views.back();
     for (float* number : {&last.cs_from_ws[1][0], &last.cs_from_ws[2][1], &last.depth_from_ws.x}) {
