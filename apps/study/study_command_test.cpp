@@ -7,6 +7,7 @@
 #include <httplib.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -121,18 +122,20 @@ bool said_at(int position) {
     return (static_cast<unsigned>(position) * 2654435761U >> 16U) % 2 == 0;
 }
 
-/// Answers as fast as the server takes it, until it is gone or asks nothing more.
-void answer_until_gone(const Server& server, Taken& taken) {
+/// Answers as fast as the server takes it, until it is gone or asks nothing more; `begun` is set with the first answer that it took.
+void answer_until_gone(const Server& server, Taken& taken, std::atomic<bool>& begun) {
     httplib::Client client("127.0.0.1", server.port_);
     while (!taken.done) {
         const json body{
             {"token", taken.token}, {"position", taken.acknowledged}, {"line", said_at(taken.acknowledged)}};
         const auto reply = client.Post("/api/answer", body.dump(), "application/json");
         if (!reply) {
+            begun = true;
             return;
         }
         ASSERT_EQ(reply->status, 200) << reply->body;
         ++taken.acknowledged;
+        begun = true;
         taken.done = json::parse(reply->body).at("done");
     }
 }
@@ -152,7 +155,13 @@ TEST(StudyCommand, LosesAndDoublesNoAnswerWhenItIsKilledAtRandomMoments) {
         if (people.empty() || people.back().done) {
             people.push_back({server.post("/api/begin", {{"screen", screen}}).at("token"), 0, false});
         }
-        std::thread answering([&] { answer_until_gone(server, people.back()); });
+        std::atomic<bool> begun = false;
+        std::thread answering([&] { answer_until_gone(server, people.back(), begun); });
+        // The first is killed once it has taken an answer, however slow the machine; the others whenever it comes.
+        for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+             kill == 0 && !begun && std::chrono::steady_clock::now() < end;) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
         const int milliseconds = moment(random);
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         server.end(SIGKILL);

@@ -38,6 +38,11 @@ GN_FN float gn_bilinear_mean(vec4 lit, vec2 share) {
 }  // namespace gn::glsl
 #else
 
+// Where kernels cross views (shadow/receiver/map_access.glsl), taps beyond the receiver's are looked up in their own.
+//   #define GN_CROSSING
+//   with #define GN_CHOICE(receiver) GnChoice(0, -1, 0.0)
+//   with #define GN_LIGHT_VIEW(i) at.view
+
 // Whether the four texels around a corner lie in the receiver's own view; where kernels do not cross views they are read there.
 bool gn_gathers_within(GnProjected projected, vec2 corner_ts) {
 #ifdef GN_CROSSING
