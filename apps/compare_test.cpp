@@ -147,7 +147,8 @@ TEST(Compare, APathFillsFlicker) {
     const ScratchFolder folder;
     const std::string file = folder / "figures.json";
     const CommandResult walked = run_gnomon({"compare", "corridor", "--path", "-r", "hard,resolution=256", "-r", "none",
-                                             "--size", "160x90", "--samples", "1", "--repeat", "1", "--json", file});
+                                             "-r", "perceptual,resolution=512", "--size", "160x90", "--samples", "1",
+                                             "--repeat", "1", "--json", file});
     ASSERT_EQ(walked.status, 0) << walked.err;
     expect_has(walked.out, {"flicker"});
     const json document = json::parse(file_text(file));
@@ -157,6 +158,18 @@ TEST(Compare, APathFillsFlicker) {
     EXPECT_EQ(run_of(document, "none").at("error").at("flicker").get<double>(), 0.0);
     EXPECT_EQ(run_of(document, "hard").at("lights").at(0).at("error").at("flicker"),
               run_of(document, "hard").at("error").at("flicker"));
+    // What a placement that chooses its resolution drew in each frame, which grows and shrinks by a quarter at most.
+    EXPECT_FALSE(run_of(document, "hard").at("lights").at(0).contains("path_texels"));
+    const json& drawn = run_of(document, "perceptual").at("lights").at(0).at("path_texels");
+    EXPECT_GT(drawn.size(), 10U);
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+        for (int axis = 0; axis < 2; ++axis) {
+            const int texels = drawn.at(k).at(axis);
+            EXPECT_TRUE(texels >= 16 && texels <= 512) << texels;
+            const int before = drawn.at(k > 0 ? k - 1 : k).at(axis);
+            EXPECT_LE(std::abs(texels - before), std::max(8.0, 0.25 * before)) << k;
+        }
+    }
 }
 
 TEST(Compare, AgainstAnotherRecipeIsADistanceOfItsOwn) {

@@ -46,6 +46,19 @@ PathFrame draw(ViewSession& view, Bench& bench, const PreparedRecipe& recipe, st
     return kept;
 }
 
+/// What the frame drew of each light's map, where its placement chooses.
+void add_chosen_texels(RunResult& run, const ViewSession& view, const History& history) {
+    std::size_t at = 0;
+    for (std::size_t l = 0; l < view.scene().lights.size(); ++l) {
+        if (view.wanted(l)) {
+            LightResult& light = run.lights[at++];
+            if (const ivec2* texels = history.before<ivec2>(chosen_texels(l))) {
+                light.path_texels.push_back(*texels);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void measure_path(RunResult& run, ViewSession& view, Bench& bench, const PreparedRecipe& recipe) {
@@ -68,6 +81,7 @@ void measure_path(RunResult& run, ViewSession& view, Bench& bench, const Prepare
             run.path_flicker.push_back(step.root_mean_square());
         }
         before = std::move(frame);
+        add_chosen_texels(run, view, history);
     }
 
     // All lights pooled as one list of samples.

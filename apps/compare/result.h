@@ -39,6 +39,8 @@ struct LightResult {
     std::string reason;
     Errors errors;
     std::string error_map;  ///< file beside the report, or ""
+    /// Texels along each axis that each frame of a path drew of the light's map; empty where the placement does not choose.
+    std::vector<ivec2> path_texels;
 };
 
 struct PassResult {

@@ -89,10 +89,24 @@ ordered_json light_json(const LightResult& light, bool for_report) {
                       {"found", found_json(light.errors)},
                       {"error", errors_json(light.errors)},
                       {"weighted", weighted_json(light.errors.weighted)}};
+    if (!light.path_texels.empty()) {
+        json["path_texels"] = ordered_json::array();
+        for (const ivec2& texels : light.path_texels) {
+            json["path_texels"].push_back({texels.x, texels.y});
+        }
+    }
     if (for_report) {
         json["error_map"] = light.error_map;
     }
     return json;
+}
+
+std::vector<ivec2> texels_from(const ordered_json& light) {
+    std::vector<ivec2> frames;
+    for (const ordered_json& texels : light.value("path_texels", ordered_json::array())) {
+        frames.emplace_back(texels.at(0).get<int>(), texels.at(1).get<int>());
+    }
+    return frames;
 }
 
 ordered_json times_json(const RunResult& run) {
@@ -243,7 +257,7 @@ RunResult run_from_json(const ordered_json& json) {
     }
     for (const ordered_json& light : json.at("lights")) {
         run.lights.push_back({light.at("name"), status_from(light.at("status")), light.at("reason"), errors_from(light),
-                              light.at("error_map")});
+                              light.at("error_map"), texels_from(light)});
     }
     run.shadow = spread_from(json.at("time_ms").at("shadow"));
     run.frame = spread_from(json.at("time_ms").at("frame"));

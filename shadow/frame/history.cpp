@@ -15,6 +15,10 @@ bool serves(const TextureDesc& held, const TextureDesc& wanted) {
            (wanted.usage & ~held.usage) == 0;
 }
 
+std::string chosen_texels(std::uint64_t light_id) {
+    return fmt::format("chosen texels of light {}", light_id);
+}
+
 void History::advance() {
     for (auto& [name, kept] : textures_) {
         kept.written = kept.written || kept.asked;

@@ -16,6 +16,10 @@ namespace gn {
 /// Whether a texture can be used as the one that is wanted, whatever its name and what else it is used for.
 bool serves(const TextureDesc& held, const TextureDesc& wanted);
 
+/// By which name a placement that chooses its resolution leaves how many texels a frame drew of a light's map (ivec2, along each
+/// axis), for whoever reports a sequence.
+std::string chosen_texels(std::uint64_t light_id);
+
 class History {
   public:
     explicit History(Device& device) : device_(device) {}

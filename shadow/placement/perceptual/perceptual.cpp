@@ -91,6 +91,7 @@ ivec2 choose(const FrameInput& input, const Recipe& recipe, const GnPerceptualPa
     }
     if (follows) {
         input.history->leave(name, texels);
+        input.history->leave(chosen_texels(input.light_id), texels);
     }
     return texels;
 }
@@ -106,7 +107,7 @@ void draw_part(LightViews& views, ivec2 texels) {
     }
 }
 
-/// Says of a single frame what was chosen; frames of a sequence are shown by their map.
+/// Says of a single frame what was chosen; frames of a sequence leave it to their history.
 void say(const FrameInput& input, const LightViews& views, ivec2 texels) {
     if (input.late_remarks != nullptr && input.history == nullptr) {
         input.late_remarks->insert(fmt::format("placement 'perceptual' draws {} x {} of {} x {} texels for light '{}'",

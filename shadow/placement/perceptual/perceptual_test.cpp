@@ -177,6 +177,9 @@ TEST(PerceptualRendered, PcssDrawsWhatItsSmallestFilterAsksFor) {
         const ivec2 before = texels != nullptr ? *texels : ivec2(0);
         texels = history.before<ivec2>("perceptual texels of light 0 pcss");
         ASSERT_NE(texels, nullptr);
+        const ivec2* reported = history.before<ivec2>(chosen_texels(0));
+        ASSERT_NE(reported, nullptr);
+        EXPECT_EQ(*reported, *texels);
         if (before.x > 0) {
             EXPECT_GE(texels->x, std::min(before.x - 8, static_cast<int>(before.x / 1.25F))) << frame;
         }
