@@ -79,6 +79,20 @@ TEST(Scale, PowersOfTwoAndStraysChangeNoBitOfV) {
                   {"a stray triangle", [](const Scene& scene) { return with_stray(scene, far_away, true); }}});
 }
 
+/// Built-in scenes too, with their cameras inside of rooms, their lamps and textures. The warehouse's yard ends 150 m away: times 2^22 it
+/// stays within 1e9 m, beyond which a scene leaves triangles out and says so.
+TEST(Scale, BuiltInScenesKeepEveryBit) {
+    for (const char* name : {"warehouse-inside", "courtyard"}) {
+        const Scene scene = load_scene(name);
+        const std::vector<float> before = visibility_of(scene, "hard,resolution=256", size);
+        for (const float scale : {0x1p-13F, 0x1p22F}) {
+            EXPECT_EQ(count_differing(before, visibility_of(rescaled(scene, scale), "hard,resolution=256", size), 0),
+                      0U)
+                << name << " times " << scale;
+        }
+    }
+}
+
 TEST(Scale, AStrayTriangleOfAnotherObjectChangesNoBitEither) {
     expect_equal({"hard,resolution=256", "cascades,resolution=256"}, 0, 0,
                  {{"a stray triangle", [](const Scene& scene) { return with_stray(scene, far_away, false); }}});
