@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Views that look one way are taken by scale and offset: what is put together again is the view, and others are left alone.
 #include "shadow/receiver/parallel_views.h"
-#include "tests/rig.h"
+#include "tests/warp_scene.h"
 
 #include <glm/gtc/matrix_access.hpp>
 
