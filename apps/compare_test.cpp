@@ -377,7 +377,7 @@ TEST(Compare, AStoppedComparisonKeepsWhatItHas) {
 
 TEST(Render, WritesAPictureAndTheVisibilityOfEveryLight) {
     const ScratchFolder folder;
-    const CommandResult result = run_gnomon({"render", "courtyard", "-r", "pcf", "--size", "96x64", "-o",
+    const CommandResult result = run_gnomon({"render", "disco-box", "-r", "pcf", "--size", "96x64", "-o",
                                              folder / "out.png", "--visibility", folder / "v.exr", "--validate"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/stats.h"
 #include "reference/quads_test.h"
+#include "tests/thorough.h"
 
 #include <gtest/gtest.h>
 
@@ -108,7 +109,8 @@ TEST(Truth, SlabConvergesToItsClosedForm) {
     const Truth truth(slab.quads.scene);
     const Samples samples = ground_samples(96, 1.4F);
     double last = 0;
-    for (const int n : {16, 64, 256, 1024}) {
+    const int most = test::sanitized ? 64 : 1024;
+    for (int n = 16; n <= most; n *= 4) {
         TruthOptions options;
         options.samples = n;
         const Difference d =
@@ -122,20 +124,7 @@ TEST(Truth, SlabConvergesToItsClosedForm) {
         }
         last = d.rmse;
     }
-}
-
-TEST(Truth, SlabWithManySamplesIsWithinFourThousandths) {
-    const Slab slab;
-    const Truth truth(slab.quads.scene);
-    const Samples samples = ground_samples(96, 1.4F);
-    TruthOptions options;
-    options.samples = 1024;
-    const TruthResult result = truth.trace(samples.position_ws, samples.normal_ws, slab.light, options);
-    const Difference d = against(slab, samples, result);
-    RecordProperty("rmse", fmt::format("{}", d.rmse));
-    RecordProperty("seconds", fmt::format("{}", result.seconds));
-    fmt::print("slab, 96 x 96, 1024 samples: rmse {:.5f}, {:.1f} s\n", d.rmse, result.seconds);
-    EXPECT_LE(d.rmse, 0.004) << "mean standard error " << result.mean_standard_error;
+    EXPECT_TRUE(test::sanitized || last <= 0.004) << "rmse " << last << " with " << most << " samples";
 }
 
 TEST(Truth, HalfPlaneGivesTheLinearRamp) {

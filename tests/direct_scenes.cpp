@@ -160,6 +160,13 @@ SceneBuilder garden() {
     return b;
 }
 
+Scene lit_garden() {
+    GnLight sunlight = sun({0.4F, -1, -0.3F}), lamp = point({-1, 3, 1}), beam = spot({-1.5F, 4, 1}, {0, 0, 0}, 0.8F);
+    sunlight.angular_radius = 0.03F;
+    lamp.radius = beam.radius = 0.2F;
+    return garden().light(sunlight).light(lamp).light(beam).scene();
+}
+
 Scene box_on_ground() {
     SceneBuilder b;
     b.ground(8).box({-1, 0.5F, -1}, {1, 2.5F, 1}).light(sun({0.3F, -1, 0.2F}));

@@ -41,6 +41,8 @@ GnLight rectangle(vec3 at, vec3 target);
 
 /// Boxes, a torus, loose triangles, a one-sided board and a leaf with holes over a ground, before a camera and without a light.
 SceneBuilder garden();
+/// The same under a sun, a lamp and a spot of some extent: what frames are made of, in few triangles.
+Scene lit_garden();
 /// A box above a ground, under a sun.
 Scene box_on_ground();
 

@@ -45,6 +45,12 @@ std::string with_few_points(const Recipe& recipe, const std::string& text) {
     return few;
 }
 
+std::string with_small_maps(const std::string& recipe, uint resolution) {
+    const Recipe read = load_recipe(recipe);
+    const bool maps = read.map != nullptr || (read.direct != nullptr && holds(read.direct->reads, "resolution"));
+    return with_few_points(read, recipe) + (maps ? fmt::format(",resolution={}", resolution) : "");
+}
+
 Comparison::Comparison(Scene given) : scene(std::move(given)) {}
 Comparison::Comparison(Comparison&&) noexcept = default;
 Comparison::~Comparison() = default;

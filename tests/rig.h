@@ -32,6 +32,9 @@ std::vector<std::string> drawn_recipes();
 /// placement that has some; as it is where there are none, or where a suite is thorough.
 std::string with_few_points(const Recipe& recipe, const std::string& text);
 
+/// A recipe's text with few points, and with maps of so many texels a side where it has maps.
+std::string with_small_maps(const std::string& recipe, uint resolution);
+
 /// One frame of a scene, first light unless told, and its truth.
 struct Comparison {
     Scene scene;

@@ -22,9 +22,7 @@ std::vector<std::string> recipes() {
         all.push_back(std::string("pcf,placement=") + placement);
     }
     for (std::string& recipe : all) {
-        const Recipe read = load_recipe(recipe);
-        const bool map = read.map != nullptr || (read.direct != nullptr && holds(read.direct->reads, "resolution"));
-        recipe = test::with_few_points(read, recipe) + (map ? ",resolution=256" : "");
+        recipe = test::with_small_maps(recipe, 256);
     }
     return all;
 }

@@ -5,6 +5,7 @@
 #include "gpu/glsl.h"
 #include "gpu/shader_cache.h"
 #include "shadow/embed/rehearsal.h"
+#include "tests/direct_scenes.h"
 #include "tests/lent_renderer.h"
 #include "tests/thorough.h"
 
@@ -82,7 +83,7 @@ TEST(EmbedBaked, BakedShadersGiveTheSameVisibility) {
     recipes.resize(test::sanitized ? 1 : 3);
     bake(folder.path, recipes);
     for (const std::string& recipe : recipes) {
-        test::LentRenderer renderer(test::built_in("courtyard"), 96, 54);
+        test::LentRenderer renderer(by_hand::lit_garden(), 96, 54);
         Result<Shadows> baked = make(recipe, folder.path), compiled = make(recipe, {});
         ASSERT_TRUE(baked.ok()) << baked.why();
         ASSERT_TRUE(compiled.ok()) << compiled.why();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A renderer that draws its casters itself gets the same V, bit for bit, as one that lends buffers of the same geometry; what
 // such draws cannot fill is refused by name.
+#include "tests/direct_scenes.h"
 #include "tests/own_draws.h"
 
 namespace gn::embed::drawn_test {
@@ -25,7 +26,7 @@ Frame drawn(Frame frame, OwnDraws& draws) {
 
 TEST(Drawn, GivesBitForBitWhatBuffersGive) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(test::built_in("courtyard"), 160, 90);
+    test::LentRenderer renderer(by_hand::lit_garden(), 160, 90);
     OwnDraws draws(renderer);
     for (const char* recipe : {"hard,resolution=512", "pcf,resolution=512", "hard,resolution=512,placement=cascades",
                                "pcf,resolution=512,placement=cascades,cascades.scroll=1",
@@ -50,7 +51,7 @@ TEST(Drawn, GivesBitForBitWhatBuffersGive) {
 
 TEST(Drawn, MapsAreMadeOfItsDepths) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(test::built_in("courtyard"), 160, 90);
+    test::LentRenderer renderer(by_hand::lit_garden(), 160, 90);
     OwnDraws draws(renderer);
     for (const char* recipe : {"esm,resolution=256", "msm,resolution=256,placement=cascades",
                                "vsm,resolution=256,vsm.slope_moment=0,placement=cascades,cascades.scroll=1"}) {
@@ -138,7 +139,7 @@ TEST(Drawn, AThrownSentenceIsRecordsOwn) {
 
 TEST(Foreseen, TellsWhatAFrameWillAskFor) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(test::built_in("courtyard"), 160, 90);
+    test::LentRenderer renderer(by_hand::lit_garden(), 160, 90);
     OwnDraws draws(renderer);
     Result<Shadows> made = make("hard,resolution=512,placement=cascades,cascades.scroll=1");
     ASSERT_TRUE(made.ok()) << made.why();

@@ -3,6 +3,7 @@
 // movement, mistakes.
 #include "shadow/embed/embed.h"
 
+#include "tests/direct_scenes.h"
 #include "tests/lent_renderer.h"
 
 namespace gn::embed::embed_test {
@@ -40,8 +41,7 @@ Judged judge(const test::LentRenderer& renderer, const std::vector<float>& v, st
 }
 
 /// The scene with points for lights, so that one ray is the truth.
-Scene hard_lit(const std::string& name) {
-    Scene scene = load_scene(name);
+Scene hard_lit(Scene scene) {
     for (Light& light : scene.lights) {
         light.shape.radius = light.shape.angular_radius = 0;
         light.shape.half_size = vec2(0);
@@ -53,7 +53,7 @@ TEST(Embed, DepthAndNormalsOfARendererGiveTheTracedShadow) {
     const test::ValidationGuard guard;
     for (const char* name : {"contact", "stack"}) {
         for (const char* recipe : {"hard,resolution=2048", "hard,resolution=1024,placement=cascades"}) {
-            test::LentRenderer renderer(hard_lit(name), 160, 120);
+            test::LentRenderer renderer(hard_lit(load_scene(name)), 160, 120);
             Result<Shadows> shadows = make(recipe);
             ASSERT_TRUE(shadows.ok()) << shadows.why();
             EXPECT_EQ(run(shadows.value(), renderer.frame()), std::vector<std::string>{""});
@@ -68,7 +68,7 @@ TEST(Embed, DepthAndNormalsOfARendererGiveTheTracedShadow) {
 
 TEST(Embed, LightsOfEveryKindComeInAnyOrder) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(hard_lit("courtyard"), 160, 90);
+    test::LentRenderer renderer(hard_lit(by_hand::lit_garden()), 160, 90);
     Result<Shadows> shadows = make("pcf,placement=cascades");
     ASSERT_TRUE(shadows.ok()) << shadows.why();
     Frame frame = renderer.frame();
@@ -90,7 +90,7 @@ TEST(Embed, LightsOfEveryKindComeInAnyOrder) {
 
 TEST(Embed, ASteadySequenceCreatesNothing) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    test::LentRenderer renderer(hard_lit(load_scene("contact")), 96, 64);
     Result<Shadows> made = make("pcf,placement=cascades");
     ASSERT_TRUE(made.ok()) << made.why();
     Shadows& shadows = made.value();
@@ -110,7 +110,7 @@ TEST(Embed, ASteadySequenceCreatesNothing) {
 TEST(Embed, TransformsMayLieElsewhereInEveryFrame) {
     const test::ValidationGuard guard;
     // A ring of as many places as there are frames, each but the last with transforms that hide everything.
-    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    test::LentRenderer renderer(hard_lit(load_scene("contact")), 96, 64);
     Result<Shadows> made = make("pcf,placement=cascades");
     ASSERT_TRUE(made.ok()) << made.why();
     Shadows& shadows = made.value();
@@ -154,7 +154,7 @@ TEST(Embed, AFrameThatFailedLeavesNothingBehind) {
     const test::ValidationGuard guard;
     // Maps are kept over frames. The sun's is declared in a frame that fails at the second light, and never drawn.
     const char* recipe = "hard,resolution=512,placement=cascades,cascades.scroll=1";
-    test::LentRenderer renderer(hard_lit("courtyard"), 96, 54);
+    test::LentRenderer renderer(hard_lit(by_hand::lit_garden()), 96, 54);
     ASSERT_GT(renderer.scene.lights.size(), 1U);
     const std::vector<float> expected = alone(renderer, recipe, 0);
     Result<Shadows> made = make(recipe);
@@ -177,8 +177,8 @@ TEST(Embed, AFrameThatFailedLeavesNothingBehind) {
 TEST(Embed, PicturesOfAnotherSizeAndCutsBeginAnew) {
     const test::ValidationGuard guard;
     const char* recipe = "pcf,resolution=512,placement=cascades,cascades.scroll=1";
-    test::LentRenderer small(hard_lit("contact"), 96, 64);
-    test::LentRenderer large(hard_lit("contact"), 160, 120);
+    test::LentRenderer small(hard_lit(load_scene("contact")), 96, 64);
+    test::LentRenderer large(hard_lit(load_scene("contact")), 160, 120);
     const std::vector<float> expected = alone(small, recipe, 0), expected_large = alone(large, recipe, 0);
     Result<Shadows> made = make(recipe);
     ASSERT_TRUE(made.ok()) << made.why();
@@ -196,7 +196,7 @@ TEST(Embed, PicturesOfAnotherSizeAndCutsBeginAnew) {
 TEST(Embed, CastersMoveWithTheirTransforms) {
     const test::ValidationGuard guard;
     // The floor stays; everything else moves aside by a metre, on the device alone.
-    test::LentRenderer renderer(hard_lit("contact"), 160, 120);
+    test::LentRenderer renderer(hard_lit(load_scene("contact")), 160, 120);
     Result<Shadows> shadows = make("hard,resolution=2048");
     ASSERT_TRUE(shadows.ok()) << shadows.why();
     run(shadows.value(), renderer.frame());
@@ -224,7 +224,7 @@ TEST(Embed, CastersMoveWithTheirTransforms) {
 TEST(Embed, KeptMapsFollowTheBoxesOfWhatMoved) {
     const test::ValidationGuard guard;
     const char* recipe = "hard,resolution=512,placement=cascades,cascades.scroll=1";
-    test::LentRenderer renderer(hard_lit("contact"), 160, 120);
+    test::LentRenderer renderer(hard_lit(load_scene("contact")), 160, 120);
     Result<Shadows> made = make(recipe);
     ASSERT_TRUE(made.ok()) << made.why();
     run(made.value(), renderer.frame());
@@ -261,7 +261,7 @@ TEST(Embed, KeptMapsFollowTheBoxesOfWhatMoved) {
 
 TEST(Embed, NormalsMayComeFromDepth) {
     const test::ValidationGuard guard;
-    test::LentRenderer renderer(hard_lit("stack"), 160, 120);
+    test::LentRenderer renderer(hard_lit(load_scene("stack")), 160, 120);
     Result<Shadows> shadows = make("hard,resolution=2048", {.normals = Normals::none});
     ASSERT_TRUE(shadows.ok()) << shadows.why();
     run(shadows.value(), renderer.frame());
@@ -277,7 +277,7 @@ TEST(Embed, MistakesAreSentences) {
     EXPECT_NE(make("volumes").why().find("'volumes'"), std::string::npos) << make("volumes").why();
     EXPECT_NE(make("hard,casters=ids").why().find("casters=ids"), std::string::npos);
 
-    test::LentRenderer renderer(hard_lit("contact"), 96, 64);
+    test::LentRenderer renderer(hard_lit(load_scene("contact")), 96, 64);
     Result<Shadows> made = make("hard,placement=paraboloid", {}, {.width = 96, .height = 64, .lights = 1});
     ASSERT_TRUE(made.ok()) << made.why();
     Shadows& shadows = made.value();

@@ -2,6 +2,7 @@
 // The C header gives what the C++ one gives, and sentences for mistakes.
 #include "shadow/embed/gnomon.h"
 
+#include "tests/direct_scenes.h"
 #include "tests/own_draws.h"
 
 namespace gn::embed::gnomon_test {
@@ -128,7 +129,7 @@ std::string record(GnomonShadows* shadows, const GnomonFrame& frame, const char*
 TEST(GnomonC, GivesTheImagesOfTheBoundary) {
     const test::ValidationGuard guard;
     const char* recipe = "pcf,placement=cascades";
-    test::LentRenderer renderer(test::built_in("courtyard"), 160, 90);
+    test::LentRenderer renderer(by_hand::lit_garden(), 160, 90);
     const Frame frame = renderer.frame();
     const test::LentDevice lent;
     Result<Shadows> direct = Shadows::create({.device = lent.adopted(), .recipe = recipe});
@@ -171,7 +172,7 @@ void draw(void* user, const GnomonCasterView* view) {
 TEST(GnomonC, DrawsOfARenderersOwnGiveTheSame) {
     const test::ValidationGuard guard;
     const char* recipe = "hard,resolution=256,placement=cascades,cascades.scroll=1";
-    test::LentRenderer renderer(test::built_in("courtyard"), 96, 54);
+    test::LentRenderer renderer(by_hand::lit_garden(), 96, 54);
     const auto by_buffers = create(recipe), by_draws = create(recipe);
     ASSERT_TRUE(by_buffers != nullptr && by_draws != nullptr);
     EXPECT_EQ(record(by_buffers.get(), FrameInC(renderer.frame()).frame, nullptr), "");

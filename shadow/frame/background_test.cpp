@@ -3,6 +3,7 @@
 #include "gpu/frames.h"
 #include "gpu/pipeline_compiler.h"
 #include "shadow/frame/frame.h"
+#include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ constexpr uint width = 64, height = 48;
 /// A device on which nothing is compiled yet, and a renderer of one scene on it.
 struct Renderer {
     std::unique_ptr<Device> device = Device::create({.validation = test::device().validates()});
-    Scene scene = test::built_in("courtyard");
+    Scene scene = by_hand::lit_garden();
     SceneGpu gpu = upload_scene(*device, scene);
     Frames frames{*device, 2};
     std::uint32_t frame = 0;

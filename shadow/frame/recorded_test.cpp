@@ -4,6 +4,7 @@
 
 #include "gpu/frames.h"
 #include "shadow/frame/history.h"
+#include "tests/direct_scenes.h"
 #include "tests/rig.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ class RecordedFrame : public testing::TestWithParam<const char*> {};
 
 TEST_P(RecordedFrame, HasTheShadowsThatMeasuringHasWhateverTheOrderOfLights) {
     const test::ValidationGuard guard;
-    const Scene& scene = test::built_in("courtyard");
+    const Scene scene = by_hand::lit_garden();
     SceneGpu gpu = upload_scene(test::device(), scene);
     const PreparedRecipe recipe(test::device(), load_recipe(GetParam()));
     const FrameResult measured = render_frame(test::device(), gpu, scene.camera(""), recipe.recipe(),
@@ -111,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Recipes, RecordedFrame,
                          });
 
 TEST(RecordedFrames, FindTheirPipelinesCompiled) {
-    const Scene& scene = test::built_in("courtyard");
+    const Scene scene = by_hand::lit_garden();
     const std::unique_ptr<Device> device = Device::create();
     SceneGpu gpu = upload_scene(*device, scene);
     const PreparedRecipe recipe(*device, load_recipe("pcf,placement=cascades,resolution=256"));
@@ -141,7 +142,7 @@ TEST(RecordedFrames, FindTheirPipelinesCompiled) {
 }
 
 TEST(RecordedFrames, RefuseInASentenceWhatAHostDoesNotLend) {
-    const Scene& scene = test::built_in("courtyard");
+    const Scene scene = by_hand::lit_garden();
     SceneGpu gpu = upload_scene(test::device(), scene);
     HostPictures pictures = pictures_of(scene, gpu);
     for (const auto& [text, what] : {std::pair{"hard,casters=ids", "object"}, {"volumes", "depth"}}) {

@@ -4,6 +4,7 @@
 #include "gpu/frames.h"
 #include "shadow/frame/frame.h"
 #include "shadow/frame/history.h"
+#include "tests/direct_scenes.h"
 #include "tests/rig.h"
 #include "tests/thorough.h"
 
@@ -22,7 +23,7 @@ void PrintTo(const Counters& c, std::ostream* out) {
 
 namespace {
 
-constexpr uint width = 48, height = 32;
+constexpr uint width = 48, height = 32, resolution = 128;
 constexpr int warm = 2, steady = test::sanitized ? 1 : 2;  // each slot once
 
 /// Threads of this process.
@@ -72,20 +73,14 @@ struct Renderer {
     }
 };
 
-std::string small_maps(const std::string& name) {
-    const Recipe recipe = load_recipe(name);
-    const bool has_map =
-        recipe.map != nullptr || (recipe.direct != nullptr && holds(recipe.direct->reads, "resolution"));
-    return test::with_few_points(recipe, name) + (has_map ? ",resolution=128" : "");
-}
-
 class Steady : public testing::TestWithParam<std::string> {};
 
 TEST_P(Steady, FramesCreateNothing) {
     const test::ValidationGuard guard;
-    const Scene& scene = test::built_in("courtyard");
+    const Scene scene = by_hand::lit_garden();
     Renderer renderer{scene};
-    const PreparedRecipe recipe(test::device(), load_recipe(small_maps(GetParam())));
+    const std::string text = test::with_small_maps(GetParam(), resolution);
+    const PreparedRecipe recipe(test::device(), load_recipe(text));
     for (int i = 0; i < warm; ++i) {
         renderer.draw(recipe);
     }
@@ -99,7 +94,7 @@ TEST_P(Steady, FramesCreateNothing) {
 
     // A value that only shaders are given makes nothing either.
     if (recipe.recipe().map != nullptr) {
-        const PreparedRecipe other(test::device(), load_recipe(small_maps(GetParam()) + ",bias.normal=1.75"));
+        const PreparedRecipe other(test::device(), load_recipe(text + ",bias.normal=1.75"));
         renderer.draw(other);
         EXPECT_EQ(test::device().counters(), before) << GetParam() << " with another bias";
     }

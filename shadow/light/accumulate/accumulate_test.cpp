@@ -41,18 +41,18 @@ std::vector<GnLight> area_lights() {
     return {sun, spot, sphere, panel};
 }
 
-FrameResult render(const Scene& scene, const std::string& recipe) {
+FrameResult render(const Scene& scene, const std::string& recipe, uint size = side) {
     const test::ValidationGuard guard;
     SceneGpu gpu = upload_scene(test::device(), scene);
     FrameResult frame = render_frame(test::device(), gpu, scene.camera(""), load_recipe(recipe),
-                                     {.width = side, .height = side, .repeat = 0, .only_light = 0, .picture = false});
+                                     {.width = size, .height = size, .repeat = 0, .only_light = 0, .picture = false});
     EXPECT_EQ(frame.refused.front(), "");
     return frame;
 }
 
 TruthResult traced(const Scene& scene, const CpuSamples& seen, const LightSamples& samples) {
     return Truth(scene).trace(seen.position_ws, seen.normal_ws, scene.lights.front(),
-                              {.exactly = &samples, .width = side});
+                              {.exactly = &samples, .width = seen.width});
 }
 
 /// Where the hard shadow of some point that the pixel takes has an edge, or a surface holds the point in its plane.
@@ -146,12 +146,13 @@ Range within_half_a_texel(const GnLight& point, vec3 p_ws, const KernelRegion& r
 
 TEST(Accumulate, MapsOfThePointsAreTheTracedPointsToHalfATexel) {
     const int count = 8;
+    constexpr uint size = 96;  // every sample asks 289 neighbours of each point
     for (const GnLight& light : area_lights()) {
         SCOPED_TRACE(light_kind_names.at(light.kind));
         // No bias moves a receiver across the light.
         const std::string rest = ",resolution=256,placement=fit,bias.normal=0";
         const Scene scene = scene_under(light);
-        const FrameResult frame = render(scene, "hard,light=accumulate,accumulate.lights=8" + rest);
+        const FrameResult frame = render(scene, "hard,light=accumulate,accumulate.lights=8" + rest, size);
         const LightSamples samples = light_samples(light, count);
         const TruthResult truth = traced(scene, frame.samples, samples);
         const std::size_t pixels = frame.samples.position_ws.size();
@@ -162,7 +163,7 @@ TEST(Accumulate, MapsOfThePointsAreTheTracedPointsToHalfATexel) {
             const Scene hard = scene_under(point);
             SceneGpu gpu = upload_scene(test::device(), hard);
             const std::vector<KernelRegion> regions = kernel_regions(
-                test::device(), gpu, hard.camera(""), load_recipe("hard" + rest), {.width = side, .height = side});
+                test::device(), gpu, hard.camera(""), load_recipe("hard" + rest), {.width = size, .height = size});
             for (std::size_t i = 0; i < pixels; ++i) {
                 const vec3 p_ws(frame.samples.position_ws[i]);
                 if (truth.counted[i] == 0 || std::abs(p_ws.y) > 1e-4F) {
@@ -189,7 +190,7 @@ TEST(Accumulate, MapsOfThePointsAreTheTracedPointsToHalfATexel) {
             }
         }
         EXPECT_EQ(beyond, 0U) << "of " << judged;
-        EXPECT_GT(judged, side * side / 4);
+        EXPECT_GT(judged, size * size / 4);
         EXPECT_LT(doubt / static_cast<double>(judged), 0.05);
         EXPECT_GT(error, 0) << "a map that has no texels is no map";
     }
