@@ -27,11 +27,13 @@ TextureHandle slices_of(const DerivedFrom& from) {
     return add_slices(from.input, from.recipe, from.views, from.count);
 }
 
-constexpr std::array<Derivation, 14> all_derivations{{
+constexpr std::array<Derivation, 15> all_derivations{{
     {"min-max", "depth", "A pyramid of least and greatest depths.", 0, false,
      [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source); }},
     {"block-min-max", "depth", "The same from blocks of 8 x 8 texels on.", 0, false,
      [](const DerivedFrom& from) { return add_min_max_pyramid(from.input.graph, from.source, glsl::gn_coarse_mip); }},
+    {"lower-planes", "depth", "Planes before all depths of blocks of 8 x 8 texels and of larger ones.", 0, false,
+     [](const DerivedFrom& from) { return add_lower_planes(from.input.graph, from.source); }},
     {"n-buffers", "depth", "Least and greatest depths of any square of 2^l texels.", 0, false,
      [](const DerivedFrom& from) { return add_n_buffer(from.input.graph, from.source, NBuffer::min_max); }},
     {"coarse-n-buffers", "min-max", "The same of any square of 2^l blocks of 8 texels.", 0, false,

@@ -3,6 +3,7 @@
 #include "shadow/map/derived.h"
 
 #include "gpu/shader_inputs.h"
+#include "shadow/receiver/map_range.glsl"
 
 #include <algorithm>
 #include <bit>
@@ -95,6 +96,61 @@ void main() {
 }
 )";
 
+// Through the mean of what opposite sides of the block differ by, and before all of its depths, by what floats round besides.
+const std::string lower_text = std::string("#include \"shadow/receiver/map_range.glsl\"\n") + R"(
+void main() {
+    ivec2 size = textureSize(source, 0).xy;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    ivec2 first = texel * push.stride;
+    ivec2 last = mix(min(first + push.stride, size) - 1, size - 1, equal(texel, max(size / push.stride, ivec2(1)) - 1));
+    float aa = texelFetch(source, ivec3(first, push.layer), 0).r;
+    float ba = texelFetch(source, ivec3(last.x, first.y, push.layer), 0).r;
+    float ab = texelFetch(source, ivec3(first.x, last.y, push.layer), 0).r;
+    float bb = texelFetch(source, ivec3(last, push.layer), 0).r;
+    vec2 extent = vec2(last - first);
+    vec2 slope = 0.5 * vec2((ba - aa) + (bb - ab), (ab - aa) + (bb - ba)) / max(extent, vec2(1.0));
+    vec4 least = vec4(3.0e38);
+    for (int y = first.y; y <= last.y; y += 2) {
+        for (int x = first.x; x <= last.x; x += 2) {
+            vec4 four = textureGather(source, vec3((vec2(x, y) + 1.0) / vec2(size), float(push.layer)));
+            // Where the map ends its border goes on.
+            vec2 next = slope * vec2(min(ivec2(x, y) + 1, last) - ivec2(x, y));
+            vec4 across = vec4(next.y, next.x + next.y, next.x, 0.0);
+            least = min(least, four - across - dot(slope, vec2(ivec2(x, y) - first)));
+        }
+    }
+    vec2 half_least = min(least.xy, least.zw);
+    float depth = min(half_least.x, half_least.y);
+    result = vec4(depth - exp2(-21.0) * (abs(depth) + dot(abs(slope), extent)), slope, 0.0);
+}
+)";
+
+// The mean of the slopes of the blocks that one is made of, and before all of their planes.
+const std::string join_lower_text = std::string("#include \"shadow/receiver/map_range.glsl\"\n") + R"(
+void main() {
+    ivec2 size = textureSize(source, 0).xy;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    ivec2 first = 2 * texel;
+    ivec2 last = mix(min(first + 1, size - 1), size - 1, equal(texel, max(size / 2, ivec2(1)) - 1));
+    vec2 slope = vec2(0.0);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            slope += texelFetch(source, ivec3(x, y, push.layer), 0).yz;
+        }
+    }
+    slope /= float((last.x - first.x + 1) * (last.y - first.y + 1));
+    float depth = 3.0e38;
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            vec3 block = texelFetch(source, ivec3(x, y, push.layer), 0).xyz;
+            vec2 ahead = vec2((ivec2(x, y) - first) * push.stride);
+            depth = min(depth, gn_lower_depth(block, ahead, gn_block_extent(ivec2(x, y), size - 1, push.stride), slope));
+        }
+    }
+    result = vec4(depth - exp2(-21.0) * (abs(depth) + dot(abs(slope), vec2(4 * push.stride))), slope, 0.0);
+}
+)";
+
 /// [Dec05]: a square of twice the side is four squares, each a side apart.
 std::string join_text(NBuffer kind) {
     return R"(
@@ -115,6 +171,8 @@ void main() {
 struct StepShaders {
     RasterDesc range = step_shader("min max", first_text), halve = step_shader("min max", halve_text);
     RasterDesc block = step_shader("min max", block_text);
+    RasterDesc lower = step_shader("lower planes", lower_text);
+    RasterDesc join_lower = step_shader("lower planes", join_lower_text);
     RasterDesc square = step_shader("n-buffer", first_text), copy = step_shader("n-buffer", copy_text);
     RasterDesc join_ranges = step_shader("n-buffer", join_text(NBuffer::min_max));
     RasterDesc join_means = step_shader("n-buffer", join_text(NBuffer::mean));
@@ -151,6 +209,24 @@ TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth, std::u
         }
     }
     return pyramid;
+}
+
+TextureHandle add_lower_planes(FrameGraph& graph, TextureHandle depth) {
+    TextureDesc desc = range_desc(graph, depth, "map lower planes");
+    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.width = std::max(desc.width >> glsl::gn_coarse_mip, 1U);
+    desc.height = std::max(desc.height >> glsl::gn_coarse_mip, 1U);
+    desc.mips = static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)));
+    const TextureHandle planes = graph.create(desc);
+    for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
+        int side = 1 << glsl::gn_coarse_mip;
+        add_step(graph, depth, planes, {step_shaders().lower, one_layer(layer), one_layer(layer), {0, side}});
+        for (std::uint32_t mip = 1; mip < desc.mips; ++mip, side *= 2) {
+            add_step(graph, planes, planes,
+                     {step_shaders().join_lower, one_layer(layer, mip - 1), one_layer(layer, mip), {0, side}});
+        }
+    }
+    return planes;
 }
 
 std::uint32_t n_buffer_levels(std::uint32_t side, std::uint32_t most_levels) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is made of a map for those who ask for it by name. A pyramid of least and greatest depths, and N-buffers, which
-// answer for any square of 2^l texels and not only for aligned ones; shadow/receiver/map_range.glsl reads both. Sums over
-// rectangles: sums.glsl. Mips. The surfaces one behind the other: shadow/casters/peel.h.
+// answer for any square of 2^l texels and not only for aligned ones; planes before all depths of a block;
+// shadow/receiver/map_range.glsl reads them. Sums over rectangles: sums.glsl. Mips. The surfaces one behind the other: shadow/casters/peel.h.
 //
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #pragma once
@@ -16,6 +16,10 @@ namespace gn {
 /// `depth`: a 2D array, one sample; its layers stay. Without its first levels where `first` is above 0: level l is then of
 /// 2^(l + first) texels, and is made of the depths at once.
 TextureHandle add_min_max_pyramid(FrameGraph& graph, TextureHandle depth, std::uint32_t first = 0);
+
+/// RGBA32F, the pyramid of blocks of 8 x 8 texels and of larger ones: a plane before all depths of a block, x its depth at the
+/// block's first texel, y and z what it grows by from texel to texel. Of a flat surface, slanted or not, it is that surface.
+TextureHandle add_lower_planes(FrameGraph& graph, TextureHandle depth);
 
 enum class NBuffer {
     min_max,  ///< RG32F: least and greatest

@@ -129,6 +129,49 @@ TEST(Derived, EveryLevelOfThePyramidHoldsTheRangeUnderItsTexels) {
     }
 }
 
+void slant(Source& source) {
+    for (std::size_t i = 0; i < source.values.size(); ++i) {
+        const auto x = static_cast<double>(i % source.width), y = static_cast<double>(i / source.width % source.height);
+        source.values[i] = static_cast<float>(0.3 + 0.004 * x - 0.002 * y);
+    }
+}
+
+/// Under every texel of every level, of random depths and of a slanted surface, which is its own plane.
+TEST(Derived, LowerPlanesLieBeforeEveryDepthUnderTheirTexels) {
+    const test::ValidationGuard guard;
+    for (const auto& [width, height, flat] :
+         {std::tuple{64U, 64U, false}, {45U, 21U, false}, {7U, 3U, false}, {64U, 32U, true}, {45U, 21U, true}}) {
+        Source source(width, height);
+        if (flat) {
+            slant(source);
+        }
+        FrameGraph graph(test::device());
+        const TextureHandle planes = add_lower_planes(graph, source.draw(graph));
+        graph.keep(planes);
+        graph.execute(false);
+        double most = 0;
+        for (std::uint32_t mip = 0; mip < graph.desc(planes).mips; ++mip) {
+            const std::vector<float> held = floats_of(graph.download(planes, mip, 1));
+            const int shift = static_cast<int>(mip) + glsl::gn_coarse_mip;
+            const int w = std::max(static_cast<int>(width) >> shift, 1),
+                      h = std::max(static_cast<int>(height) >> shift, 1);
+            ASSERT_EQ(held.size(), static_cast<std::size_t>(4 * w * h));
+            for (int y = 0; y < static_cast<int>(height); ++y) {
+                for (int x = 0; x < static_cast<int>(width); ++x) {
+                    const int bx = std::min(x >> shift, w - 1), by = std::min(y >> shift, h - 1);
+                    const float* plane = &held[static_cast<std::size_t>(4 * (by * w + bx))];
+                    const double before = plane[0] + static_cast<double>(plane[1]) * (x - (bx << shift)) +
+                                          static_cast<double>(plane[2]) * (y - (by << shift));
+                    const double room = source.at(x, y, 1) - before;
+                    EXPECT_GE(room, 0) << width << " x " << height << " mip " << mip << " at " << x << ", " << y;
+                    most = std::max(most, room);
+                }
+            }
+        }
+        EXPECT_EQ(most < 1e-4, flat) << width << " x " << height;
+    }
+}
+
 TEST(Derived, AnNBufferAnswersForEverySquare) {
     const test::ValidationGuard guard;
     Source source(19, 12);
@@ -325,6 +368,43 @@ TEST(Derived, RectanglesAreCoveredByFourFetches) {
         // A pyramid answers for the aligned squares that the rectangle touches; an N-buffer is never wider than that.
         const int level = glsl::gn_n_buffer_level(first, last, 6);
         EXPECT_EQ(vec2(got.z, got.w), source.range(first, glm::max(last, first + (1 << level) - 1), 1)) << i;
+    }
+}
+
+/// By four fetches too, of any rectangle, and of a slanted surface it is that surface.
+TEST(Derived, ALowerPlaneLiesBeforeTheDepthsOfARectangle) {
+    const test::ValidationGuard guard;
+    for (const bool flat : {false, true}) {
+        Source source(67, 45);
+        if (flat) {
+            slant(source);
+        }
+        std::mt19937 random(5);
+        const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+        std::vector<ivec4> asked;
+        for (int i = 0; i < 200; ++i) {
+            const ivec2 first(pick(0, 66), pick(0, 44));
+            asked.emplace_back(first, pick(first.x, 66), pick(first.y, 44));
+        }
+        FrameGraph graph(test::device());
+        ShaderInputs inputs;
+        inputs.texture("sampler2DArray", "planes", add_lower_planes(graph, source.draw(graph)));
+        const std::vector<vec4> read =
+            answers_of<vec4>(graph, inputs, asked, "shadow/receiver/map_range.glsl",
+                             "answers[i] = vec4(gn_lower_plane(planes, rectangle.xy, rectangle.zw, 1), 0.0);\n");
+        double most = 0;
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            for (int y = asked[i].y; y <= asked[i].w; ++y) {
+                for (int x = asked[i].x; x <= asked[i].z; ++x) {
+                    const double before = read[i].x + static_cast<double>(read[i].y) * (x - asked[i].x) +
+                                          static_cast<double>(read[i].z) * (y - asked[i].y);
+                    const double room = source.at(x, y, 1) - before;
+                    EXPECT_GE(room, -1e-6) << "rectangle " << i << " at " << x << ", " << y;
+                    most = std::max(most, room);
+                }
+            }
+        }
+        EXPECT_EQ(most < 1e-4, flat);
     }
 }
 

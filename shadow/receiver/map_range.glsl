@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Least and greatest depth of a rectangle of texels, from what shadow/map/derived.h makes. Texels are counted within the
-// layer, both ends included.
+// Least and greatest depth of a rectangle of texels, or a plane before all of its depths, from what shadow/map/derived.h makes.
+// Texels are counted within the layer, both ends included.
 // Based on: Decoret. N-Buffers for Efficient Depth Map Query. Computer Graphics Forum 2005. [Dec05]
 #ifndef GN_SHADOW_RECEIVER_MAP_RANGE_GLSL
 #define GN_SHADOW_RECEIVER_MAP_RANGE_GLSL
@@ -28,6 +28,19 @@ GN_FN int gn_pyramid_first(int map_side, int side) {
     return findMSB(max(map_side / side, 1));
 }
 
+// Of a plane before all depths of a block, vec3(depth at its first texel, slopes a texel), the depth at another texel that a plane
+// of the slopes `slope` may have there and still lie before them: the block begins `ahead` texels after that one, and its last
+// texel lies `extent` after its first.
+GN_FN float gn_lower_depth(vec3 block, vec2 ahead, vec2 extent, vec2 slope) {
+    vec2 steeper = vec2(block.y, block.z) - slope;
+    return block.x - dot(slope, ahead) + dot(min(steeper, vec2(0.0f)), extent);
+}
+
+// The texels from the first to the last of block `at` of the blocks of `side` texels up to `edge`, which takes in what is left over.
+GN_FN vec2 gn_block_extent(ivec2 at, ivec2 edge, int side) {
+    return vec2(float(at.x == edge.x ? 2 * side - 1 : side - 1), float(at.y == edge.y ? 2 * side - 1 : side - 1));
+}
+
 // The level of an N-buffer whose squares, one in each corner, cover a rectangle without a gap: the largest power of two
 // that is no longer than the longer side.
 GN_FN int gn_n_buffer_level(ivec2 first, ivec2 last, int levels) {
@@ -50,6 +63,27 @@ vec2 gn_pyramid_min_max(sampler2DArray pyramid, ivec2 first, ivec2 last, int lay
     vec2 ab = texelFetch(pyramid, ivec3(a.x, b.y, layer), level).xy;
     vec2 bb = texelFetch(pyramid, ivec3(b, layer), level).xy;
     return vec2(min(min(aa.x, ba.x), min(ab.x, bb.x)), max(max(aa.y, ba.y), max(ab.y, bb.y)));
+}
+
+// A plane before all depths of the rectangle: vec3(depth at its first texel, slopes a texel).
+vec3 gn_lower_plane(sampler2DArray planes, ivec2 first, ivec2 last, int layer) {
+    int level = gn_pyramid_level(first >> gn_coarse_mip, last >> gn_coarse_mip, textureQueryLevels(planes));
+    int shift = gn_coarse_mip + level;
+    ivec2 edge = max(textureSize(planes, 0).xy >> level, ivec2(1)) - 1;
+    ivec2 a = min(first >> shift, edge);
+    ivec2 b = min(last >> shift, edge);
+    vec3 aa = texelFetch(planes, ivec3(a, layer), level).xyz;
+    vec3 ba = texelFetch(planes, ivec3(b.x, a.y, layer), level).xyz;
+    vec3 ab = texelFetch(planes, ivec3(a.x, b.y, layer), level).xyz;
+    vec3 bb = texelFetch(planes, ivec3(b, layer), level).xyz;
+    vec2 slope = 0.25 * ((aa.yz + ba.yz) + (ab.yz + bb.yz));
+    int side = 1 << shift;
+    vec2 near = vec2(a * side - first);
+    vec2 far = vec2(b * side - first);
+    vec2 extent = gn_block_extent(b, edge, side);
+    float depth = min(min(gn_lower_depth(aa, near, extent, slope), gn_lower_depth(ba, vec2(far.x, near.y), extent, slope)),
+                      min(gn_lower_depth(ab, vec2(near.x, far.y), extent, slope), gn_lower_depth(bb, far, extent, slope)));
+    return vec3(depth, slope);
 }
 
 // Of the whole layer, whatever views it holds.

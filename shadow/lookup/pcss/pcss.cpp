@@ -18,11 +18,17 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
 }
 
 std::string prologue(const Recipe& recipe) {
-    return fmt::format("#define GN_PCSS_TAP {}\n", recipe.of<GnPcssParams>("pcss").tap);
+    const auto& params = recipe.of<GnPcssParams>("pcss");
+    return fmt::format("#define GN_PCSS_TAP {}\n{}", params.tap, params.planes != 0 ? "#define GN_PCSS_PLANES\n" : "");
 }
 
 std::vector<std::string_view> needs_for(const Recipe& recipe) {
-    return {"depth", recipe.of<GnPcssParams>("pcss").extremes == GN_PCSS_BLOCKS ? "block-min-max" : "min-max"};
+    const auto& params = recipe.of<GnPcssParams>("pcss");
+    std::vector<std::string_view> needs{"depth", params.extremes == GN_PCSS_BLOCKS ? "block-min-max" : "min-max"};
+    if (params.planes != 0) {
+        needs.push_back("lower-planes");
+    }
+    return needs;
 }
 
 ParamTable rows() {
@@ -47,6 +53,11 @@ ParamTable rows() {
                   "Of what least and greatest depths are known: of single texels on, or of blocks of 8 x 8, which are "
                   "made in a fraction of the time, end fewer searches and widen those beside near casters.",
                   "texels", "blocks"),
+        GN_PARAM(GnPcssParams, planes, boolean, 0, 1, "",
+                 "Also asks planes before all depths of blocks of 8 x 8 texels whether all of the light is seen: least "
+                 "depths "
+                 "cannot tell of slanted ground that it is lit. V stays the same; pays where much of a large picture "
+                 "is open."),
         GN_CHOICE(
             GnPcssParams, noise,
             "What turns the taps: the place in the picture, so that noise swims over surfaces as the camera moves, or "
@@ -76,6 +87,7 @@ const Part& lookup_pcss() {
         p.needs_for = needs_for;
         p.searches_pages = true;
         p.sides = {
+            {"search-class", "", "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read."},
             {"blocker-distance", "m",
              "How far along the light's depth what hides a sample lies before it, on average."},
             {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."},

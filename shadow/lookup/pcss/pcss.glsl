@@ -22,6 +22,16 @@
 #define GN_PCSS_TAP params.tap
 #endif
 
+// Planes before all depths of blocks, for early-outs on slanted surfaces:
+//   #define GN_PCSS_PLANES
+#ifdef GN_PCSS_PLANES
+#define GN_PCSS_MAPS sampler2DArray depth, sampler2DArray pyramid, sampler2DArray planes
+#define GN_PCSS_THESE depth, pyramid, planes
+#else
+#define GN_PCSS_MAPS sampler2DArray depth, sampler2DArray pyramid
+#define GN_PCSS_THESE depth, pyramid
+#endif
+
 // What turns the taps from pixel to pixel, or from place to place on the surface; there a pixel's size is the mean of its sides.
 float gn_pcss_noise(GnReceiver receiver, GnPcssParams params) {
     if (params.noise == GN_PCSS_OF_PIXEL) {
@@ -36,12 +46,35 @@ struct GnPcssFound {
     float blocker;     // their mean, or the nearest
 };
 
-GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light,
-                           GnPcssParams params, float noise) {
+// Where what hides the light can lie: narrowed twice from the nearest that the whole layer holds, and in between asked whether all
+// of the light is seen.
+GnPcssRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light, GnPcssParams params) {
     GnPcssMetres metres = gn_pcss_metres_of(at);
+    bool early_out = params.early_out != 0;
     // Half a texel farther a tap reads the texel beside the one that it falls into.
     float least = params.least + (GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? 0.5 : 0.0);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, least, params.early_out != 0);
+    GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
+    region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+#ifdef GN_PCSS_PLANES
+    if (region.visibility < 0.0 && early_out && gn_pcss_all_before(at, planes, half_light, region, least)) {
+        region.visibility = 1.0;
+    }
+#endif
+    if (region.visibility < 0.0) {
+        region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+    }
+#ifndef GN_PCSS_PLANES
+    if (region.visibility < 0.0 && early_out) {
+        region.visibility = gn_pcss_within(at, pyramid, half_light, region, least).y;
+    }
+#endif
+    return region;
+}
+
+GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light,
+                           GnPcssParams params, float noise) {
+    GnPcssMetres metres = gn_pcss_metres_of(at);
+    GnPcssRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
     GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
@@ -75,10 +108,10 @@ float gn_pcss_lit(GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnPcss
                                               : gn_pcss_tap(at, depth, metres, tap_ts).lit ? 1.0 : 0.0;
 }
 
-float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
+float gn_pcss_visibility(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
     float noise = gn_pcss_noise(at.receiver, params);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, noise);
+    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, noise);
     if (found.visibility >= 0.0) {
         return found.visibility;
     }
@@ -98,26 +131,32 @@ float gn_pcss_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     return lit / float(taps);
 }
 
+// Why a search ended: 1 all of the light is seen, 2 none of it, 3 the texels had to be read.
+float gn_pcss_search_class(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
+    GnPcssRegion region = gn_pcss_where(at, GN_PCSS_THESE, gn_pcss_light(at.light, at.receiver.p_ws), params);
+    return region.visibility == 1.0 ? 1.0 : region.visibility == 0.0 ? 2.0 : 3.0;
+}
+
 // Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
-float gn_pcss_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
+float gn_pcss_blocker_distance(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
 }
 
 // Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
-float gn_pcss_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
+float gn_pcss_penumbra_width(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
 }
 
 // Half the shorter side of the filter on the light's plane, before `least` widens it; 0 where all of the light is seen or none.
-float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) {
+float gn_pcss_filter_radius(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, depth, pyramid, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
     if (found.visibility >= 0.0) {
         return 0.0;
     }
@@ -129,8 +168,8 @@ float gn_pcss_filter_radius(GnLookup at, sampler2DArray depth, sampler2DArray py
 }
 
 // How near the texel's centre lies, and how far around the sample casters change its V.
-float gn_pcss_confidence(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) { return gn_confidence(at.projected); }
-float gn_pcss_kernel_reach(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssParams params) { return gn_kernel_reach(at.projected, at.bias); }
+float gn_pcss_confidence(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) { return gn_confidence(at.projected); }
+float gn_pcss_kernel_reach(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) { return gn_kernel_reach(at.projected, at.bias); }
 #endif
 
 #endif

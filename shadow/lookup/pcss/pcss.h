@@ -25,6 +25,7 @@ struct GnPcssParams {
     float least GN_DEFAULT(1.5f);
     int early_out GN_DEFAULT(1);
     int extremes GN_DEFAULT(GN_PCSS_TEXELS);
+    int planes GN_DEFAULT(0);
     int noise GN_DEFAULT(GN_PCSS_OF_SURFACE);
     int tap GN_DEFAULT(GN_PCSS_ONE_TEXEL);
 };

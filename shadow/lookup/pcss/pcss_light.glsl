@@ -268,6 +268,27 @@ vec2 gn_pcss_extremes(GnLookup at, sampler2DArray pyramid, vec2 reach_ts) {
     return vec2(found.x, plane.y <= found.x ? 1.0 : plane.x > found.y ? 0.0 : -1.0);
 }
 
+// Whether the receiver's plane lies before a plane that lies before all depths of the rectangle: then all of the light is seen. With
+// the distance `room` between both at the receiver, the other's slopes s, the receiver's b and its fall f, what is left of it at d
+// is room + s.d - b.d / (1 - f.d), and that times the divisor at least room - |s - room f - b|.h - |s|.h |f|.h where |d| <= h.
+bool gn_pcss_before(GnLookup at, sampler2DArray planes, vec2 reach_ts) {
+    GnProjected projected = at.projected;
+    GnBias bias = at.bias;
+    if (GN_VIEW_KIND > 1 || !gn_within_view(projected, projected.uv_ts - reach_ts, projected.uv_ts + reach_ts)) {
+        return false;
+    }
+    ivec2 first = ivec2(floor((projected.uv_ts - reach_ts) / projected.texel_ts));
+    ivec2 last = ivec2(floor(min(projected.uv_ts + reach_ts, projected.bounds_ts.zw - 0.5 * projected.texel_ts) / projected.texel_ts));
+    vec3 lower = gn_lower_plane(planes, first, max(last, first), projected.layer);
+    float room = lower.x + dot(lower.yz, projected.uv_ts / projected.texel_ts - 0.5 - vec2(first)) - projected.depth;
+    vec2 half_ts = reach_ts + projected.texel_ts;
+    vec2 slope = lower.yz / projected.texel_ts;
+    vec2 own = GN_BIAS_PLANE ? projected.plane_slope : vec2(0.0);
+    vec2 fall = GN_BIAS_PLANE && GN_VIEW_KIND == 1 ? projected.plane_fall : vec2(0.0);
+    float fallen = dot(abs(fall), half_ts);
+    return fallen < 0.5 && room >= dot(abs(slope - room * fall - own), half_ts) + dot(abs(slope), half_ts) * fallen;
+}
+
 // Metres along the axis to what a tap holds: where tap_ts lies on the receiver's map, uv_ts on that of the tap's own view, and
 // there the receiver's plane at the depth `plane`. Where kernels cross views:
 //   #define GN_CROSSING
@@ -313,33 +334,62 @@ struct GnPcssRegion {
     float spread;      // of a blocker there
 };
 
-// From the nearest that the whole layer holds, then from the nearest in the region that follows from it. `least`: texels by
-// which kernels reach farther than the light's points.
+// With the nearest at a depth of the map.
+GnPcssRegion gn_pcss_region_to(GnLookup at, GnPcssMetres metres, float receiver, float depth) {
+    float nearest = gn_pcss_distance(metres, at.view, at.projected.uv_ts, max(depth, 0.0));
+    return GnPcssRegion(-1.0, receiver, nearest, gn_pcss_spread_at(at, receiver, nearest));
+}
+
+// From the nearest that the whole layer holds.
+GnPcssRegion gn_pcss_anywhere(GnLookup at, sampler2DArray pyramid, GnPcssMetres metres) {
+    float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
+    float nearest = gn_pyramid_all(pyramid, at.projected.layer).x;
+#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
+    nearest = min(nearest, gn_pyramid_all(pyramid, gn_pcss_whole(at).projected.layer).x);
+#endif
+    return gn_pcss_region_to(at, metres, receiver, nearest);
+}
+
+// What a region holds, as gn_pcss_extremes says it. `least`: texels by which kernels reach farther than the light's points.
+vec2 gn_pcss_within(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssRegion region, float least) {
+    vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
+    vec2 found = gn_pcss_extremes(at, pyramid, reach_ts + least * at.projected.texel_ts);
+#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
+    found = gn_pcss_with_whole(found, gn_pcss_whole(at), pyramid, half_light, region.spread);
+#endif
+    return found;
+}
+
+// The region that follows from the nearest in another.
+GnPcssRegion gn_pcss_narrowed(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, GnPcssRegion region,
+                              float least, bool early_out) {
+    vec2 found = gn_pcss_within(at, pyramid, half_light, region, least);
+    GnPcssRegion narrow = gn_pcss_region_to(at, metres, region.receiver, found.x);
+    narrow.visibility = early_out ? found.y : -1.0;
+    return narrow;
+}
+
+// Whether nothing in the region lies before the receiver's plane.
+bool gn_pcss_all_before(GnLookup at, sampler2DArray planes, GnPcssLight half_light, GnPcssRegion region, float least) {
+#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
+    return false;
+#else
+    vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
+    return gn_pcss_before(at, planes, reach_ts + least * at.projected.texel_ts);
+#endif
+}
+
+// Narrowed twice, and what its extremes decide.
 GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, float least,
                             bool early_out) {
-    GnPcssRegion region;
-    region.visibility = -1.0;
-    region.receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
-    vec2 least_ts = vec2(least * at.projected.texel_ts);
-    GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
-    vec2 found = gn_pyramid_all(pyramid, at.projected.layer);
-#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
-    GnLookup whole = gn_pcss_whole(at);
-    found = vec2(min(found.x, gn_pyramid_all(pyramid, whole.projected.layer).x), -1.0);
-#endif
-    for (int step = 0; step < 3; ++step) {
-        region.nearest = gn_pcss_distance(metres, at.view, at.projected.uv_ts, max(found.x, 0.0));
-        region.spread = gn_pcss_spread_at(at, region.receiver, region.nearest);
-        vec2 reach_ts = gn_pcss_reach(gn_pcss_spread_by(one, region.spread), half_light.square);
-        found = gn_pcss_extremes(at, pyramid, reach_ts + least_ts);
-#if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
-        found = gn_pcss_with_whole(found, whole, pyramid, half_light, region.spread);
-#endif
-        if (found.y >= 0.0 && early_out) {
-            region.visibility = found.y;
+    GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
+    for (int step = 0; step < 2; ++step) {
+        region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+        if (region.visibility >= 0.0) {
             return region;
         }
     }
+    region.visibility = early_out ? gn_pcss_within(at, pyramid, half_light, region, least).y : -1.0;
     return region;
 }
 #endif

@@ -2,6 +2,7 @@
 // The penumbra of a half-plane is as wide as the light makes it, whatever the map's resolution and the kind of light.
 #include "shadow/lookup/pcss/pcss.glsl"
 #include "shadow/recipe/part.h"
+#include "shadow/show/show.h"
 #include "tests/penumbra.h"
 #include "tests/warp_scene.h"
 
@@ -224,17 +225,48 @@ TEST(Pcss, NarrowKernelsAreLengthenedWhicheverWayTheLightsAxesRun) {
     }
 }
 
-/// What the pyramid decides, the full loops would have found.
+/// Of a slanted ground that nothing stands on, no sample needs a texel of the map, and V is the same.
+TEST(PcssRendered, SlantedGroundsAreKnownToBeLit) {
+    const test::ValidationGuard guard;
+    for (const char* scene : {"contact:radius=3", "contact:light=spot", "contact:radius=3,elevation=15"}) {
+        const Scene made = load_scene(scene);
+        SceneGpu gpu = upload_scene(test::device(), made);
+        const std::vector<std::string> names{"search-class"};
+        const Recipe recipe = load_recipe("pcss,pcss.planes=true");
+        const FrameResult frame =
+            render_frame(test::device(), gpu, made.camera(""), recipe,
+                         {.width = 96, .height = 72, .repeat = 0, .only_light = 0, .picture = false});
+        const Shown shown =
+            show_hidden(test::device(), gpu, made.camera(""), recipe, names, {.width = 96, .height = 72}).front();
+        const std::vector<float>& v = frame.visibility.front().values;
+        int lit = 0, known = 0;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const vec4 p_ws = frame.samples.position_ws[i];
+            const bool ground = p_ws.w > 0.5F && p_ws.y < 1e-3F;
+            const bool all_seen = shown.values.values[2 * i] == 1;
+            lit += ground && v[i] == 1 ? 1 : 0;
+            known += ground && all_seen ? 1 : 0;
+            EXPECT_TRUE(!ground || !all_seen || v[i] == 1) << i;
+        }
+        // Blocks of 8 texels and more that the box or its shadow touches have to be read.
+        EXPECT_GT(known, lit / 3) << scene;
+        EXPECT_GT(lit, 500);
+    }
+}
+
+/// What pyramid and planes decide, the full loops would have found.
 TEST(PcssRendered, EarlyOutsChangeNoSample) {
-    for (const char* scene : {"half-plane", "contact:light=spot", "contact:light=point", "fence"}) {
-        const auto with = test::compare(scene, "pcss,resolution=512", {.width = 96, .height = 72, .samples = 4});
-        const auto without =
-            test::compare(scene, "pcss,resolution=512,pcss.early_out=false", {.width = 96, .height = 72, .samples = 4});
-        EXPECT_EQ(with.visibility().values, without.visibility().values) << scene;
+    for (const char* scene : {"half-plane", "contact:light=spot", "contact:light=point", "fence", "tilted:radius=3"}) {
+        const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 4};
+        const auto without = test::compare(scene, "pcss,resolution=512,pcss.early_out=false", size);
+        for (const char* planes : {"", ",pcss.planes=true"}) {
+            const auto with = test::compare(scene, std::string("pcss,resolution=512") + planes, size);
+            EXPECT_EQ(with.visibility().values, without.visibility().values) << scene << planes;
+        }
     }
     const test::ComparisonOptions coarse{.width = 96, .height = 72, .samples = 4};
     for (const char* scene : {"half-plane", "contact:light=spot"}) {
-        const std::string bilinear = "pcss,resolution=128,pcss.tap=bilinear,pcss.least=0.5";
+        const std::string bilinear = "pcss,resolution=128,pcss.tap=bilinear,pcss.least=0.5,pcss.planes=true";
         EXPECT_EQ(test::compare(scene, bilinear, coarse).visibility().values,
                   test::compare(scene, bilinear + ",pcss.early_out=false", coarse).visibility().values)
             << scene << ", bilinear taps";

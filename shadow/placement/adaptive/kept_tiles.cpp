@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t most_boxes = 64;
 
 /// What is made of a map's depths as an image; whatever else is drawn of all views, which kept ones are not.
-constexpr std::array<std::string_view, 5> images{"depth", "min-max", "block-min-max", "n-buffers", "coarse-n-buffers"};
+constexpr std::array<std::string_view, 6> images{"depth",        "min-max",   "block-min-max",
+                                                 "lower-planes", "n-buffers", "coarse-n-buffers"};
 
 std::string tree_name(const FrameInput& input, const Recipe& recipe) {
     return fmt::format("tiles of light {} {}{}", input.light_id, recipe.name, input.translucent ? " translucent" : "");
