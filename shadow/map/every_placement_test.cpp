@@ -44,8 +44,8 @@ TEST(EveryPlacementRendered, NoFilterableMapLightsTheUmbraOfASingleCaster) {
             }
             const bool deep = placement == "cube" || placement == "cascades";
             if (map->stage == Stage::map && map->filterable && !(deep && holds(stepped, map->id))) {
-                // A paraboloid spreads a hemisphere over one map.
-                const int resolution = placement == "paraboloid" ? 1024 : 256;
+                // A paraboloid spreads a hemisphere over what three faces of a cube and a half share.
+                const int resolution = placement == "paraboloid" ? 1024 : 512;
                 const std::string recipe =
                     fmt::format("vsm,map={},resolution={},placement={}", map->id, resolution, placement);
                 const std::string few = test::with_few_points(load_recipe(recipe), recipe);
