@@ -53,19 +53,20 @@ GnPcssRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light, Gn
     bool early_out = params.early_out != 0;
     // Half a texel farther a tap reads the texel beside the one that it falls into.
     float least = params.least + (GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? 0.5 : 0.0);
+    GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
     GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
-    region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+    region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
 #ifdef GN_PCSS_PLANES
-    if (region.visibility < 0.0 && early_out && gn_pcss_all_before(at, planes, half_light, region, least)) {
+    if (region.visibility < 0.0 && early_out && gn_pcss_all_before(at, planes, half_light, one, region, least)) {
         region.visibility = 1.0;
     }
 #endif
     if (region.visibility < 0.0) {
-        region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+        region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
     }
 #ifndef GN_PCSS_PLANES
     if (region.visibility < 0.0 && early_out) {
-        region.visibility = gn_pcss_within(at, pyramid, half_light, region, least).y;
+        region.visibility = gn_pcss_within(at, pyramid, half_light, one, region, least).y;
     }
 #endif
     return region;

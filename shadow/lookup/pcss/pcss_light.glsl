@@ -350,10 +350,14 @@ GnPcssRegion gn_pcss_anywhere(GnLookup at, sampler2DArray pyramid, GnPcssMetres 
     return gn_pcss_region_to(at, metres, receiver, nearest);
 }
 
-// What a region holds, as gn_pcss_extremes says it. `least`: texels by which kernels reach farther than the light's points.
-vec2 gn_pcss_within(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssRegion region, float least) {
-    vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
-    vec2 found = gn_pcss_extremes(at, pyramid, reach_ts + least * at.projected.texel_ts);
+// Half the sides of a region on the map. `least`: texels by which kernels reach farther than the light's points; `one`: a spread of 1.
+vec2 gn_pcss_region_reach(GnLookup at, GnPcssLight half_light, GnPcssKernel one, GnPcssRegion region, float least) {
+    return gn_pcss_reach(gn_pcss_spread_by(one, region.spread), half_light.square) + least * at.projected.texel_ts;
+}
+
+// What a region holds, as gn_pcss_extremes says it.
+vec2 gn_pcss_within(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssKernel one, GnPcssRegion region, float least) {
+    vec2 found = gn_pcss_extremes(at, pyramid, gn_pcss_region_reach(at, half_light, one, region, least));
 #if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
     found = gn_pcss_with_whole(found, gn_pcss_whole(at), pyramid, half_light, region.spread);
 #endif
@@ -361,35 +365,35 @@ vec2 gn_pcss_within(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light,
 }
 
 // The region that follows from the nearest in another.
-GnPcssRegion gn_pcss_narrowed(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, GnPcssRegion region,
-                              float least, bool early_out) {
-    vec2 found = gn_pcss_within(at, pyramid, half_light, region, least);
+GnPcssRegion gn_pcss_narrowed(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssKernel one, GnPcssMetres metres,
+                              GnPcssRegion region, float least, bool early_out) {
+    vec2 found = gn_pcss_within(at, pyramid, half_light, one, region, least);
     GnPcssRegion narrow = gn_pcss_region_to(at, metres, region.receiver, found.x);
     narrow.visibility = early_out ? found.y : -1.0;
     return narrow;
 }
 
 // Whether nothing in the region lies before the receiver's plane.
-bool gn_pcss_all_before(GnLookup at, sampler2DArray planes, GnPcssLight half_light, GnPcssRegion region, float least) {
+bool gn_pcss_all_before(GnLookup at, sampler2DArray planes, GnPcssLight half_light, GnPcssKernel one, GnPcssRegion region, float least) {
 #if defined(GN_WHOLE_CHOICE) && defined(GN_CROSSING)
     return false;
 #else
-    vec2 reach_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
-    return gn_pcss_before(at, planes, reach_ts + least * at.projected.texel_ts);
+    return gn_pcss_before(at, planes, gn_pcss_region_reach(at, half_light, one, region, least));
 #endif
 }
 
 // Narrowed twice, and what its extremes decide.
 GnPcssRegion gn_pcss_region(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnPcssMetres metres, float least,
                             bool early_out) {
+    GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
     GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
     for (int step = 0; step < 2; ++step) {
-        region = gn_pcss_narrowed(at, pyramid, half_light, metres, region, least, early_out);
+        region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
         if (region.visibility >= 0.0) {
             return region;
         }
     }
-    region.visibility = early_out ? gn_pcss_within(at, pyramid, half_light, region, least).y : -1.0;
+    region.visibility = early_out ? gn_pcss_within(at, pyramid, half_light, one, region, least).y : -1.0;
     return region;
 }
 #endif
