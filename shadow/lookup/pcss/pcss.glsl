@@ -46,30 +46,27 @@ struct GnPcssFound {
     float blocker;     // their mean, or the nearest
 };
 
-// Where what hides the light can lie: narrowed twice from the nearest that the whole layer holds, and in between asked whether all
-// of the light is seen.
+// Where what hides the light can lie. With planes they are asked between both steps that narrow the region, and its extremes not
+// once more after them.
 GnPcssRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light, GnPcssParams params) {
     GnPcssMetres metres = gn_pcss_metres_of(at);
     bool early_out = params.early_out != 0;
     // Half a texel farther a tap reads the texel beside the one that it falls into.
     float least = params.least + (GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? 0.5 : 0.0);
+#ifdef GN_PCSS_PLANES
     GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
     GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
     region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
-#ifdef GN_PCSS_PLANES
     if (region.visibility < 0.0 && early_out && gn_pcss_all_before(at, planes, half_light, one, region, least)) {
         region.visibility = 1.0;
     }
-#endif
     if (region.visibility < 0.0) {
         region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
     }
-#ifndef GN_PCSS_PLANES
-    if (region.visibility < 0.0 && early_out) {
-        region.visibility = gn_pcss_within(at, pyramid, half_light, one, region, least).y;
-    }
-#endif
     return region;
+#else
+    return gn_pcss_region(at, pyramid, half_light, metres, least, early_out);
+#endif
 }
 
 GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light,
