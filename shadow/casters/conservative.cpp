@@ -108,7 +108,7 @@ std::uint64_t key_of(const ConservativePass& pass, bool tiles) {
     return hasher.finish().low;
 }
 
-struct Push {
+struct ConservativePush {
     std::int32_t view, layer;
     std::uint32_t first_triangle;
 };
@@ -149,8 +149,8 @@ void add_conservative_passes(const FrameInput& input, const LightViews& views, c
                 r.index_buffer(handles.indices);
                 for (const std::uint32_t index : objects) {
                     const Object& object = scene->objects[index];
-                    r.push_value(Push{static_cast<std::int32_t>(view.index), static_cast<std::int32_t>(view.layer),
-                                      object.first_triangle});
+                    r.push_value(ConservativePush{static_cast<std::int32_t>(view.index),
+                                                  static_cast<std::int32_t>(view.layer), object.first_triangle});
                     if (drawn.tiles) {
                         r.draw_indexed_indirect(draws, index * sizeof(VkDrawIndexedIndirectCommand));
                     } else {

@@ -28,7 +28,7 @@ void main() {
 }
 )";
 
-struct Push {
+struct SlicePush {
     int layer, first;
 };
 
@@ -93,7 +93,7 @@ TextureHandle add_slices(const FrameInput& input, const Recipe& recipe, const Li
             [inputs, i, groups](Recorder& r) {
                 r.bind(shader);
                 inputs.set(r);
-                r.push_value(Push{static_cast<int>(i / groups), static_cast<int>(i % groups) * 4});
+                r.push_value(SlicePush{static_cast<int>(i / groups), static_cast<int>(i % groups) * 4});
                 r.draw(3);
             });
     }

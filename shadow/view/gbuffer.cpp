@@ -35,7 +35,7 @@ void main() {
 }
 )";
 
-struct Push {
+struct GBufferPush {
     vec4 base_color;
     float roughness, metallic, alpha_cutoff;
     std::uint32_t first_triangle, object;
@@ -136,8 +136,9 @@ void draw_objects(Recorder& r, const Scene& scene, const SceneHandles& handles, 
             const BaseColor color = base_color(scene, handles, material);
             r.set("base_color_texture", color.texture, color.sampler);
         }
-        r.push_value(Push{material.base_color, material.roughness, material.metallic, alpha_test(material).cutoff,
-                          object.first_triangle, static_cast<std::uint32_t>(i), object.receives ? 1.0F : 2.0F});
+        r.push_value(GBufferPush{material.base_color, material.roughness, material.metallic,
+                                 alpha_test(material).cutoff, object.first_triangle, static_cast<std::uint32_t>(i),
+                                 object.receives ? 1.0F : 2.0F});
         r.draw_indexed(object.triangle_count * 3, 1, object.first_triangle * 3);
     }
 }

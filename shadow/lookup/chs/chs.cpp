@@ -2,10 +2,10 @@
 // Contact-hardening shadows: search and filter read a grid of few texels, of the mip in which it spans the kernel.
 //
 // Based on: Sikachev, Delmont, Doyon, Bucci. Next-Generation Rendering in Thief. GPU Pro 6, 2015. [SDDB15]
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and where what hides it can lie)
 #include "shadow/lookup/chs/chs.h"
 
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 namespace gn::parts::chs {

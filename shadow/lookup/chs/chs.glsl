@@ -8,7 +8,7 @@
 #define GN_SHADOW_LOOKUP_CHS_GLSL
 
 #include "shadow/lookup/chs/chs.h"
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/receiver/light_extent.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -74,18 +74,18 @@ struct GnChsSum {
 };
 
 // Adds a depth that was found at uv_ts of the tap's view, where the receiver's plane is at `plane`.
-void gn_chs_add(GnLookup at, GnLookup tap, GnPcssMetres metres, vec2 middle_ts, vec2 uv_ts, float depth, float plane, float weight, inout GnChsSum sum) {
+void gn_chs_add(GnLookup at, GnLookup tap, GnExtentMetres metres, vec2 middle_ts, vec2 uv_ts, float depth, float plane, float weight, inout GnChsSum sum) {
     sum.weight += weight;
     if (plane <= depth) {
         return;
     }
-    float distance = gn_pcss_seen(at, tap, metres, middle_ts, uv_ts, plane, depth);
+    float distance = gn_extent_seen(at, tap, metres, middle_ts, uv_ts, plane, depth);
     sum.hidden += weight;
     sum.distance += weight * distance;
 }
 
 // One texel of a mip, by its middle on the map.
-void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssMetres metres, vec2 middle_ts, int level,
+void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnExtentMetres metres, vec2 middle_ts, int level,
                   float weight, GnChsParams params, inout GnChsSum sum) {
     vec2 uv_ts;
     GnLookup tap = gn_tap_reader(at, middle_ts, uv_ts);
@@ -133,11 +133,11 @@ void gn_chs_texel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sam
 }
 
 // All texels of the mip in which `side` of them span the kernel that the light's points make through a plane at `spread`.
-GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnPcssLight half_light, GnPcssMetres metres, float spread,
+GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnExtentLight half_light, GnExtentMetres metres, float spread,
                        GnChsParams params) {
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
-    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, params.least * at.projected.texel_ts);
-    vec4 axes_ts = gn_pcss_axes(kernel);
+    GnExtentKernel kernel = gn_extent_kernel(at, half_light, spread);
+    GnExtentWiden widen = gn_extent_widen(kernel, 0.0, params.least * at.projected.texel_ts);
+    vec4 axes_ts = gn_extent_axes(kernel);
     vec2 right_ts = axes_ts.xy + widen.right_ts;
     vec2 up_ts = axes_ts.zw + widen.up_ts;
     vec2 reach_ts = half_light.square ? abs(right_ts) + abs(up_ts) : sqrt(right_ts * right_ts + up_ts * up_ts);
@@ -177,9 +177,9 @@ GnChsSum gn_chs_kernel(GnLookup at, sampler2DArray depth, sampler2DArray pyramid
 }
 
 float gn_chs_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray mips, GnChsParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentRegion region = gn_extent_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
@@ -188,7 +188,7 @@ float gn_chs_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyrami
         return 1.0;
     }
     float blocker = clamp(search.distance / search.hidden, 0.0, region.receiver);
-    GnChsSum filtered = gn_chs_kernel(at, depth, pyramid, mips, half_light, metres, gn_pcss_spread_at(at, region.receiver, blocker), params);
+    GnChsSum filtered = gn_chs_kernel(at, depth, pyramid, mips, half_light, metres, gn_extent_spread_at(at, region.receiver, blocker), params);
     return filtered.weight > 0.0 ? 1.0 - filtered.hidden / filtered.weight : 1.0;
 }
 #endif

@@ -30,22 +30,22 @@ GN_FN bool gn_fake_has_size(GnLight light) {
 // Whether there are penumbrae at all; else the shadow is hard.
 GN_FN bool gn_fake_spreads(GnLight light, GnFakePenumbraParams params) { return params.least > 0.0f || gn_fake_has_size(light); }
 
-// Half the light as gn_pcss_light has it; one without extent along an axis is a millionth as wide as it is far away.
-GN_FN GnPcssLight gn_fake_light(GnLight light, vec3 p_ws) {
+// Half the light as gn_extent_light has it; one without extent along an axis is a millionth as wide as it is far away.
+GN_FN GnExtentLight gn_fake_light(GnLight light, vec3 p_ws) {
     bool far = light.kind == uint(GN_LIGHT_DIRECTIONAL);
     float least = 1.0e-6f * (far ? 1.0f : max(length(vec3(light.position_ws) - p_ws), 1.0e-6f));
     GnLight wider = light;
     wider.radius = max(light.radius, least);
     wider.angular_radius = max(light.angular_radius, least);
     wider.half_size = max(light.half_size, vec2(least));
-    return gn_pcss_light(wider, p_ws);
+    return gn_extent_light(wider, p_ws);
 }
 
 // How far a point of the light, in halves of its extent, lies from its centre.
 GN_FN float gn_fake_norm(bool square, vec2 q) { return square ? max(abs(q.x), abs(q.y)) : length(q); }
 
 // Which point of the light sees the receiver where its map shows something `d_ts` away: q times the spread of what is there. The
-// inverse of gn_pcss_shift, which moves along (right, up) q and divides by 1 + fall.q.
+// inverse of gn_extent_shift, which moves along (right, up) q and divides by 1 + fall.q.
 struct GnFakeAxes {
     vec2 x;  // q.x = dot(x, d_ts), before the division
     vec2 y;
@@ -54,7 +54,7 @@ struct GnFakeAxes {
     float least;  // norm of q for each texture unit, at least
 };
 
-GN_FN GnFakeAxes gn_fake_axes(GnLookup at, GnPcssLight half_light) {
+GN_FN GnFakeAxes gn_fake_axes(GnLookup at, GnExtentLight half_light) {
     vec2 right_ts = vec2(dot(at.projected.du_ws, half_light.right_ws), dot(at.projected.dv_ws, half_light.right_ws));
     vec2 up_ts = vec2(dot(at.projected.du_ws, half_light.up_ws), dot(at.projected.dv_ws, half_light.up_ws));
     float area = right_ts.x * up_ts.y - right_ts.y * up_ts.x;
@@ -96,9 +96,9 @@ GN_FN vec2 gn_fake_to_texel(vec2 place, ivec2 texel) {
 }
 
 // The way from a receiver to an edge's point on the picture, in the light's plane: q times the spread, as gn_fake_point.
-GN_FN vec2 gn_fake_beside(GnLight light, GnPcssLight half_light, vec3 p_ws, vec3 edge_ws) {
+GN_FN vec2 gn_fake_beside(GnLight light, GnExtentLight half_light, vec3 p_ws, vec3 edge_ws) {
     bool far = light.kind == uint(GN_LIGHT_DIRECTIONAL);
-    vec3 axis = gn_pcss_axis(light, p_ws);
+    vec3 axis = gn_extent_axis(light, p_ws);
     vec3 ray_ws = far ? vec3(light.direction_ws) : edge_ws - vec3(light.position_ws);
     vec3 way_ws = edge_ws - p_ws;
     float along = dot(axis, ray_ws);

@@ -25,7 +25,7 @@ float distance_to(vec3 p_ws, ivec2 pixel, vec4 edge) {
     if (edge.w < 0.0) {
         return 1.0e30;
     }
-    GnPcssLight half_light = gn_fake_light(u.light, p_ws);
+    GnExtentLight half_light = gn_fake_light(u.light, p_ws);
     vec2 q = gn_fake_beside(u.light, half_light, p_ws, edge.xyz);
     vec3 seen = gn_reproject(u.view.cs_from_ws, mat4(1.0), edge.xyz);
     float pixels = length(seen.xy * vec2(u.view.size.xy) - vec2(pixel) - 0.5);

@@ -6,7 +6,8 @@
 // Based on: Arvo, Hirvikorpi, Tyystjaervi. Approximate Soft Shadows with an Image-Space Flood-Fill Algorithm. Eurographics 2004.
 // [AHT04]
 //
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and where what hides it can lie),
+// shadow/lookup/pcss (a texel of the map as its kernels read it)
 // Stands on: shadow/lookup/sssm (the spread of what lies before a receiver, and its place in an image)
 // Also here: fake_edge.glsl (V beside an edge), fake_flood.h, fake_flood.cpp (edges that grow over the picture)
 #include "shadow/lookup/fake_penumbra/fake_penumbra.h"
@@ -14,7 +15,7 @@
 #include "shadow/frame/frame.h"
 #include "shadow/lookup/fake_penumbra/fake_edge.glsl"
 #include "shadow/lookup/fake_penumbra/fake_flood.h"
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@
 
 // The texel of a place on the map, and what it holds.
 ivec2 gn_fake_texel(GnLookup at) { return ivec2(floor(at.projected.uv_ts / at.projected.texel_ts)); }
-GnPcssTap gn_fake_tap(GnLookup at, sampler2DArray depth, GnPcssMetres metres, ivec2 texel) {
+GnPcssTap gn_fake_tap(GnLookup at, sampler2DArray depth, GnExtentMetres metres, ivec2 texel) {
     return gn_pcss_tap(at, depth, metres, (vec2(texel) + 0.5) * at.projected.texel_ts);
 }
 
@@ -69,7 +69,7 @@ GnFakeFound gn_fake_in_block(GnFakeFound found, GnLookup at, sampler2DArray dept
 }
 
 // Of one that leaves the view, one by one, where kernels go on in the views beside it.
-GnFakeFound gn_fake_in_others(GnFakeFound found, GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnFakeAxes axes, bool lit, ivec2 first,
+GnFakeFound gn_fake_in_others(GnFakeFound found, GnLookup at, sampler2DArray depth, GnExtentMetres metres, GnFakeAxes axes, bool lit, ivec2 first,
                               int texels, int radius) {
     for (int i = 0; i < texels; ++i) {
         ivec2 texel = first + ivec2(i % gn_fake_block, i / gn_fake_block);
@@ -80,7 +80,7 @@ GnFakeFound gn_fake_in_others(GnFakeFound found, GnLookup at, sampler2DArray dep
 
 // Rings of blocks, until no farther one can hold a nearer texel. A loop, unlike a choice, ends for all neighbours where none goes
 // on.
-GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnFakeAxes axes, bool lit, int radius) {
+GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, GnExtentMetres metres, GnFakeAxes axes, bool lit, int radius) {
     GnFakeFound found = GnFakeFound(1.0e30, ivec2(0));
     vec2 place = at.projected.uv_ts / at.projected.texel_ts;
     ivec2 middle = gn_fake_texel(at) / gn_fake_block;
@@ -110,17 +110,17 @@ GnFakeFound gn_fake_search(GnLookup at, sampler2DArray depth, GnPcssMetres metre
 
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
-    GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+    GnExtentLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
     if (!gn_fake_spreads(at.light, params)) {
         return own.lit ? 1.0 : 0.0;
     }
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, true);
+    GnExtentRegion region = gn_extent_region(at, pyramid, half_light, metres, params.least, true);
     if (region.visibility >= 0.0) {
         return region.visibility;
     }
-    vec2 widest_ts = gn_pcss_reach(gn_pcss_kernel(at, half_light, region.spread), half_light.square);
+    vec2 widest_ts = gn_extent_reach(gn_extent_kernel(at, half_light, region.spread), half_light.square);
     float most = max(max(widest_ts.x, widest_ts.y) / at.projected.texel_ts, params.least);
     int radius = int(ceil(min(most, float(params.radius)))) + 1;
     GnFakeAxes axes = gn_fake_axes(at, half_light);
@@ -130,7 +130,7 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
     }
     // What casts the edge stands where the receiver is dark, or where the texel is that was found.
     float blocker = own.lit ? gn_fake_tap(at, depth, metres, found.texel).distance : own.distance;
-    float spread = gn_pcss_spread_at(at, region.receiver, blocker);
+    float spread = gn_extent_spread_at(at, region.receiver, blocker);
     float away = length(gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, found.texel));
     float x = gn_fake_distance(away, found.reach, spread, params.least, float(params.radius));
     return gn_fake_ramp(half_light.square, own.lit ? x : -x);
@@ -139,8 +139,8 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 // [KD03]: only what is dark becomes lighter. `steps`: the way, in texels, to the nearest that lies behind a step of depth.
 float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                   GnFakePenumbraParams params) {
-    GnPcssLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+    GnExtentLight half_light = gn_fake_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
     ivec2 texel = gn_fake_texel(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, texel);
     if (own.lit || !gn_fake_spreads(at.light, params)) {
@@ -154,11 +154,11 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
         !gn_fake_tap(at, depth, metres, end).lit) {
         return 0.0;
     }
-    float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
+    float receiver = gn_extent_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     vec2 way = gn_fake_to_texel(at.projected.uv_ts / at.projected.texel_ts, end);
     GnFakeAxes axes = gn_fake_axes(at, half_light);
     float reach = gn_fake_norm(axes.square, gn_fake_point(axes, way * at.projected.texel_ts));
-    float spread = gn_pcss_spread_at(at, receiver, own.distance);
+    float spread = gn_extent_spread_at(at, receiver, own.distance);
     // The whole width lies inside.
     return gn_fake_ramp(axes.square, 1.0 - 2.0 * gn_fake_distance(length(way), reach, 2.0 * spread, params.least, float(params.radius)));
 }
@@ -166,9 +166,9 @@ float gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DAr
 // 1 in shadow, and what hides the light there lies so many metres before the receiver, packed.
 vec3 gn_fake_penumbra_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, sampler2DArray steps,
                                  GnFakePenumbraParams params) {
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+    GnExtentMetres metres = gn_extent_metres_of(at);
     GnPcssTap own = gn_fake_tap(at, depth, metres, gn_fake_texel(at));
-    float receiver = gn_pcss_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
+    float receiver = gn_extent_distance(metres, at.view, at.projected.uv_ts, at.projected.depth);
     return own.lit ? vec3(0.0) : vec3(1.0, gn_sssm_pack(max(receiver - own.distance, 0.0)), 0.0);
 }
 #endif

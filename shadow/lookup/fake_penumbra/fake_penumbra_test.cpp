@@ -38,7 +38,7 @@ TEST(FakePenumbra, WidthsAreTheLightsWithinTheirBounds) {
     EXPECT_FLOAT_EQ(glsl::gn_fake_distance(0, 0, 0.5F, 0, 8), 0);
 }
 
-/// gn_fake_point finds the point of the light that gn_pcss_shift moved by.
+/// gn_fake_point finds the point of the light that gn_extent_shift moved by.
 TEST(FakePenumbra, TheLightsPointIsFoundFromItsPlaceOnTheMap) {
     for (const char* name : kinds) {
         const Scene scene = load_scene(name);
@@ -49,11 +49,11 @@ TEST(FakePenumbra, TheLightsPointIsFoundFromItsPlaceOnTheMap) {
         at.receiver.n_ws = vec3(0, 1, 0);
         at.view = views.views.front();
         at.projected = glsl::gn_project(at.receiver, at.view, GnBias{});
-        const glsl::GnPcssLight light = glsl::gn_fake_light(at.light, at.receiver.p_ws);
+        const glsl::GnExtentLight light = glsl::gn_fake_light(at.light, at.receiver.p_ws);
         const glsl::GnFakeAxes axes = glsl::gn_fake_axes(at, light);
         for (const vec2 q : {vec2(0.5F, 0.25F), vec2(-0.7F, 0.1F), vec2(0, -1)}) {
             const float spread = 0.8F;
-            const vec2 d_ts = glsl::gn_pcss_shift(at, light, q, spread);
+            const vec2 d_ts = glsl::gn_extent_shift(at, light, q, spread);
             const vec2 found = glsl::gn_fake_point(axes, d_ts);
             EXPECT_NEAR(found.x, spread * q.x, 1e-4) << name;
             EXPECT_NEAR(found.y, spread * q.y, 1e-4) << name;
@@ -68,7 +68,7 @@ TEST(FakePenumbra, OnThePictureTheLightsPointIsFoundAlongItsRay) {
     for (const char* name : kinds) {
         const GnLight light = load_scene(name).lights.front().shape;
         const vec3 p_ws(0.2F, 0, 0.1F);
-        const glsl::GnPcssLight half_light = glsl::gn_fake_light(light, p_ws);
+        const glsl::GnExtentLight half_light = glsl::gn_fake_light(light, p_ws);
         const vec2 q(0.3F, -0.6F);
         const vec3 beside_ws = p_ws + q.x * half_light.right_ws + q.y * half_light.up_ws;
         const vec3 ray_ws =

@@ -2,10 +2,11 @@
 // Occlusion textures: slices of the scene, flattened and prefiltered, whose soft shadows are multiplied.
 //
 // Based on: Eisemann, Decoret. Plausible Image Based Soft Shadows Using Occlusion Textures. SIBGRAPI 2006. [ED06]
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it),
+// shadow/lookup/pcss (a texel of the map as its kernels read it)
 #include "shadow/lookup/occlusion_textures/occlusion_textures.h"
 
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 #include <array>

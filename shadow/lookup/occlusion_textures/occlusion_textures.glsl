@@ -87,21 +87,21 @@ float gn_occlusion_mips_mean(GnLookup at, sampler2DArray slices, int layer, int 
 }
 
 // The share of the light that slice k hides, through its bottom at `spread`.
-float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_light, float spread, int k,
+float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnExtentLight half_light, float spread, int k,
                           GnOcclusionTexturesParams params) {
     float half_side = 0.5 * gn_occlusion_side(half_light.square, params.cells);
     int layer = at.projected.layer * ((params.slices + 3) / 4) + k / 4;
     int channel = k & 3;
     int cells = params.cells * params.cells;
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
+    GnExtentKernel kernel = gn_extent_kernel(at, half_light, spread);
     float hidden = 0.0;
     for (int i = 0; i < cells; ++i) {
         vec2 q = gn_occlusion_cell(half_light.square, i, params.cells);
         // The map may look askew: the middles of the cell's sides say where it is and how large.
-        vec2 left_ts = gn_pcss_way(kernel, q - vec2(half_side, 0.0));
-        vec2 right_ts = gn_pcss_way(kernel, q + vec2(half_side, 0.0));
-        vec2 down_ts = gn_pcss_way(kernel, q - vec2(0.0, half_side));
-        vec2 up_ts = gn_pcss_way(kernel, q + vec2(0.0, half_side));
+        vec2 left_ts = gn_extent_way(kernel, q - vec2(half_side, 0.0));
+        vec2 right_ts = gn_extent_way(kernel, q + vec2(half_side, 0.0));
+        vec2 down_ts = gn_extent_way(kernel, q - vec2(0.0, half_side));
+        vec2 up_ts = gn_extent_way(kernel, q + vec2(0.0, half_side));
         vec2 middle_ts = at.projected.uv_ts + 0.25 * (left_ts + right_ts + down_ts + up_ts);
         vec2 side_ts = sqrt((right_ts - left_ts) * (right_ts - left_ts) + (up_ts - down_ts) * (up_ts - down_ts));
         hidden += params.filter_by == GN_OCCLUSION_N_BUFFERS
@@ -114,16 +114,16 @@ float gn_occlusion_hidden(GnLookup at, sampler2DArray slices, GnPcssLight half_l
 }
 
 float gn_occlusion_textures_visibility(GnLookup at, sampler2DArray depth, sampler2DArray slices, GnOcclusionTexturesParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     if (half_light.right_ws == vec3(0.0) && half_light.up_ws == vec3(0.0)) {
-        return gn_pcss_tap(at, depth, gn_pcss_metres_of(at), at.projected.uv_ts).lit ? 1.0 : 0.0;
+        return gn_pcss_tap(at, depth, gn_extent_metres_of(at), at.projected.uv_ts).lit ? 1.0 : 0.0;
     }
     float end = gn_slices_end(at.light, at.view);
     float receiver = gn_slices_metres(at.light, at.view, at.projected.uv_ts, at.projected.depth);
     GnFused fused = gn_unfused();
     // What lies in the receiver's own slice does not count: its bottom is behind the receiver.
     for (int k = 0; k < params.slices && gn_slice_bottom(k, params.slices, end) < receiver; ++k) {
-        float spread = gn_pcss_spread_at(at, receiver, gn_slice_bottom(k, params.slices, end));
+        float spread = gn_extent_spread_at(at, receiver, gn_slice_bottom(k, params.slices, end));
         fused = gn_fuse(fused, gn_occlusion_hidden(at, slices, half_light, spread, k, params));
     }
     return 1.0 - gn_fused(fused, params.fusion);

@@ -2,11 +2,10 @@
 // Percentage-closer soft shadows, in the light's physical size, over any placement.
 //
 // Based on: Fernando. Percentage-Closer Soft Shadows. SIGGRAPH Sketches 2005. [Fer05]
-// Also here: pcss_light.glsl (the light as a receiver sees it), pcss_tap.glsl (a texel of the map as its kernels read it),
-// light_guard.h, light_guard.cpp (how far its penumbrae reach)
+// Also here: pcss_tap.glsl (a texel of the map as its kernels read it)
 #include "shadow/lookup/pcss/pcss.h"
 
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 namespace gn::parts::pcss {

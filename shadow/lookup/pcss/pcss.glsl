@@ -48,44 +48,44 @@ struct GnPcssFound {
 
 // Where what hides the light can lie. With planes they are asked between both steps that narrow the region, and its extremes not
 // once more after them.
-GnPcssRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light, GnPcssParams params) {
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+GnExtentRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnExtentLight half_light, GnPcssParams params) {
+    GnExtentMetres metres = gn_extent_metres_of(at);
     bool early_out = params.early_out != 0;
     // Half a texel farther a tap reads the texel beside the one that it falls into.
     float least = params.least + (GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? 0.5 : 0.0);
 #ifdef GN_PCSS_PLANES
-    GnPcssKernel one = gn_pcss_kernel(at, half_light, 1.0);
-    GnPcssRegion region = gn_pcss_anywhere(at, pyramid, metres);
-    region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
-    if (region.visibility < 0.0 && early_out && gn_pcss_all_before(at, planes, half_light, one, region, least)) {
+    GnExtentKernel one = gn_extent_kernel(at, half_light, 1.0);
+    GnExtentRegion region = gn_extent_anywhere(at, pyramid, metres);
+    region = gn_extent_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
+    if (region.visibility < 0.0 && early_out && gn_extent_all_before(at, planes, half_light, one, region, least)) {
         region.visibility = 1.0;
     }
     if (region.visibility < 0.0) {
-        region = gn_pcss_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
+        region = gn_extent_narrowed(at, pyramid, half_light, one, metres, region, least, early_out);
     }
     return region;
 #else
-    return gn_pcss_region(at, pyramid, half_light, metres, least, early_out);
+    return gn_extent_region(at, pyramid, half_light, metres, least, early_out);
 #endif
 }
 
-GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light,
+GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnExtentLight half_light,
                            GnPcssParams params, float noise) {
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
     GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
     }
 
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, region.spread);
-    GnPcssWiden widen = gn_pcss_widen(kernel, params.least * at.projected.texel_ts, 0.0);
-    GnPcssPoints points = gn_pcss_points(half_light.square, params.search_taps, noise);
+    GnExtentKernel kernel = gn_extent_kernel(at, half_light, region.spread);
+    GnExtentWiden widen = gn_extent_widen(kernel, params.least * at.projected.texel_ts, 0.0);
+    GnExtentPoints points = gn_extent_points(half_light.square, params.search_taps, noise);
     float sum = 0.0;
     float count = 0.0;
     float nearest = result.receiver;
     for (int i = 0; i < params.search_taps; ++i) {
-        GnPcssTap tap = gn_pcss_tap(at, depth, metres, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points)));
+        GnPcssTap tap = gn_pcss_tap(at, depth, metres, gn_extent_tap_ts(at, kernel, widen, gn_extent_next(points)));
         if (!tap.lit) {
             sum += tap.distance;
             count += 1.0;
@@ -101,44 +101,44 @@ GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnPcssLight half_light,
 }
 
 // The share of a tap of the filter that is lit.
-float gn_pcss_lit(GnLookup at, sampler2DArray depth, GnPcssMetres metres, GnPcssParams params, vec2 tap_ts) {
+float gn_pcss_lit(GnLookup at, sampler2DArray depth, GnExtentMetres metres, GnPcssParams params, vec2 tap_ts) {
     return GN_PCSS_TAP == GN_PCSS_FOUR_TEXELS ? gn_bilinear_tap(depth, at, tap_ts)
                                               : gn_pcss_tap(at, depth, metres, tap_ts).lit ? 1.0 : 0.0;
 }
 
 float gn_pcss_visibility(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     float noise = gn_pcss_noise(at.receiver, params);
     GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, noise);
     if (found.visibility >= 0.0) {
         return found.visibility;
     }
-    float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
+    float spread = gn_extent_spread_at(at, found.receiver, found.blocker);
     float least_ts = params.least * at.projected.texel_ts;
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
-    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, least_ts);
-    vec2 reach_ts = gn_pcss_reach(kernel, half_light.square);
+    GnExtentKernel kernel = gn_extent_kernel(at, half_light, spread);
+    GnExtentWiden widen = gn_extent_widen(kernel, 0.0, least_ts);
+    vec2 reach_ts = gn_extent_reach(kernel, half_light.square);
     float width = max(max(reach_ts.x, reach_ts.y), least_ts) / at.projected.texel_ts;
     int taps = clamp(int(ceil(params.density * width)), min(4, params.taps), params.taps);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssPoints points = gn_pcss_points(half_light.square, taps, noise);
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentPoints points = gn_extent_points(half_light.square, taps, noise);
     float lit = 0.0;
     for (int i = 0; i < taps; ++i) {
-        lit += gn_pcss_lit(at, depth, metres, params, gn_pcss_tap_ts(at, kernel, widen, gn_pcss_next(points)));
+        lit += gn_pcss_lit(at, depth, metres, params, gn_extent_tap_ts(at, kernel, widen, gn_extent_next(points)));
     }
     return lit / float(taps);
 }
 
 // Why a search ended: 1 all of the light is seen, 2 none of it, 3 the texels had to be read.
 float gn_pcss_search_class(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
-    GnPcssRegion region = gn_pcss_where(at, GN_PCSS_THESE, gn_pcss_light(at.light, at.receiver.p_ws), params);
+    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, gn_extent_light(at.light, at.receiver.p_ws), params);
     return region.visibility == 1.0 ? 1.0 : region.visibility == 0.0 ? 2.0 : 3.0;
 }
 
 // Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
 float gn_pcss_blocker_distance(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
     return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
 }
@@ -146,20 +146,20 @@ float gn_pcss_blocker_distance(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
 // Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
 float gn_pcss_penumbra_width(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
-    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
+    return found.visibility >= 0.0 ? 0.0 : gn_extent_width(half_light, gn_extent_spread_at(at, found.receiver, found.blocker));
 }
 
 // Half the shorter side of the filter on the light's plane, before `least` widens it; 0 where all of the light is seen or none.
 float gn_pcss_filter_radius(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
     if (found.visibility >= 0.0) {
         return 0.0;
     }
-    float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
-    vec4 axes_ts = gn_pcss_axes(gn_pcss_kernel(at, half_light, spread));
+    float spread = gn_extent_spread_at(at, found.receiver, found.blocker);
+    vec4 axes_ts = gn_extent_axes(gn_extent_kernel(at, half_light, spread));
     float right = length(gn_on_light_plane(at.view, axes_ts.xy));
     float up = length(gn_on_light_plane(at.view, axes_ts.zw));
     return max(min(right, up), 1.0e-30);

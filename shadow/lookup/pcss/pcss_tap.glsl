@@ -3,7 +3,7 @@
 #ifndef GN_SHADOW_LOOKUP_PCSS_TAP_GLSL
 #define GN_SHADOW_LOOKUP_PCSS_TAP_GLSL
 
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/receiver/light_extent.glsl"
 
 #ifndef __cplusplus
 
@@ -18,7 +18,7 @@ struct GnPcssTap {
 };
 
 // `metres` of the receiver's own view.
-GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, GnPcssMetres metres, vec2 tap_ts) {
+GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, GnExtentMetres metres, vec2 tap_ts) {
     vec2 uv_ts;
     GnLookup tap = gn_tap_reader(at, tap_ts, uv_ts);
     vec2 last_ts = tap.projected.bounds_ts.zw - 0.5 * tap.projected.texel_ts;
@@ -26,7 +26,7 @@ GnPcssTap gn_pcss_tap(GnLookup at, sampler2DArray depth, GnPcssMetres metres, ve
     float occluder = gn_map_texel(depth, tap, texel).r;
     float plane = gn_depth_at(tap.projected, (vec2(texel) + 0.5) * tap.projected.texel_ts, tap.bias);
     bool lit = plane <= occluder;
-    float distance = gn_pcss_seen(at, tap, metres, tap_ts, uv_ts, plane, occluder);
+    float distance = gn_extent_seen(at, tap, metres, tap_ts, uv_ts, plane, occluder);
     return GnPcssTap(distance, lit);
 }
 

@@ -14,17 +14,17 @@ namespace {
 
 TEST(Pcss, SpreadIsThePenumbraOverTheLight) {
     // [EASW09] 5.2.2: w_p = w_l (d_r - d_o) / d_o; of a sun 2 tan(a) (d_r - d_o).
-    EXPECT_FLOAT_EQ(glsl::gn_pcss_spread(false, 4, 2), 1);
-    EXPECT_FLOAT_EQ(glsl::gn_pcss_spread(false, 5, 4), 0.25F);
-    EXPECT_FLOAT_EQ(glsl::gn_pcss_spread(true, 5, 3), 2);
-    EXPECT_EQ(glsl::gn_pcss_spread(false, 2, 3), 0) << "nothing behind the receiver hides the light";
+    EXPECT_FLOAT_EQ(glsl::gn_extent_spread(false, 4, 2), 1);
+    EXPECT_FLOAT_EQ(glsl::gn_extent_spread(false, 5, 4), 0.25F);
+    EXPECT_FLOAT_EQ(glsl::gn_extent_spread(true, 5, 3), 2);
+    EXPECT_EQ(glsl::gn_extent_spread(false, 2, 3), 0) << "nothing behind the receiver hides the light";
 }
 
 TEST(Pcss, ASpheresPenumbraIsWiderThanItsDiscs) {
     // 2 r (d_r - d_o) / sqrt(d_o^2 - r^2) against 2 r (d_r - d_o) / d_o.
     for (const double d : {0.6, 1.0, 2.0, 10.0}) {
         const double r = 0.5;
-        EXPECT_NEAR(glsl::gn_pcss_bulge(static_cast<float>(r), static_cast<float>(d)), d / std::sqrt(d * d - r * r),
+        EXPECT_NEAR(glsl::gn_extent_bulge(static_cast<float>(r), static_cast<float>(d)), d / std::sqrt(d * d - r * r),
                     1e-5 * d)
             << d;
     }
@@ -32,11 +32,11 @@ TEST(Pcss, ASpheresPenumbraIsWiderThanItsDiscs) {
 
 TEST(Pcss, PointsLieInTheLightsOwnShape) {
     double mean_square = 0;
-    glsl::GnPcssPoints discs = glsl::gn_pcss_points(false, 64, 0.3F);
-    glsl::GnPcssPoints squares = glsl::gn_pcss_points(true, 64, 0.3F);
+    glsl::GnExtentPoints discs = glsl::gn_extent_points(false, 64, 0.3F);
+    glsl::GnExtentPoints squares = glsl::gn_extent_points(true, 64, 0.3F);
     for (int i = 0; i < 64; ++i) {
-        const vec2 disc = glsl::gn_pcss_next(discs);
-        const vec2 square = glsl::gn_pcss_next(squares);
+        const vec2 disc = glsl::gn_extent_next(discs);
+        const vec2 square = glsl::gn_extent_next(squares);
         EXPECT_LE(glm::length(disc), 1);
         EXPECT_LE(std::max(std::abs(square.x), std::abs(square.y)), 1);
         mean_square += static_cast<double>(glm::dot(disc, disc)) / 64;
@@ -46,10 +46,10 @@ TEST(Pcss, PointsLieInTheLightsOwnShape) {
 
 /// As far as a sine's argument of 255 golden angles has digits.
 TEST(Pcss, PointsOfADiscAreAGoldenSpiral) {
-    glsl::GnPcssPoints points = glsl::gn_pcss_points(false, 256, 0.3F);
+    glsl::GnExtentPoints points = glsl::gn_extent_points(false, 256, 0.3F);
     for (int i = 0; i < 256; ++i) {
         const vec2 expected = glsl::gn_vogel(i, 256, 2 * glm::pi<float>() * 0.3F);
-        EXPECT_LE(glm::distance(glsl::gn_pcss_next(points), expected), 2e-4F) << i;
+        EXPECT_LE(glm::distance(glsl::gn_extent_next(points), expected), 2e-4F) << i;
     }
 }
 
@@ -59,7 +59,7 @@ TEST(Pcss, DiscsTurnToTheReceiverAndRectanglesDoNot) {
     light.position_ws = vec4(1, 2, 3, 1);
     light.radius = 0.25F;
     const vec3 p_ws(-2, 0.5F, 1);
-    const glsl::GnPcssLight sphere = glsl::gn_pcss_light(light, p_ws);
+    const glsl::GnExtentLight sphere = glsl::gn_extent_light(light, p_ws);
     const vec3 to_light = gn_to_light(light, p_ws);
     EXPECT_NEAR(glm::dot(sphere.right_ws, to_light), 0, 1e-6);
     EXPECT_NEAR(glm::dot(sphere.up_ws, to_light), 0, 1e-6);
@@ -68,14 +68,14 @@ TEST(Pcss, DiscsTurnToTheReceiverAndRectanglesDoNot) {
 
     light.kind = GN_LIGHT_RECTANGLE;
     light.half_size = vec2(0.5F, 0.1F);
-    const glsl::GnPcssLight panel = glsl::gn_pcss_light(light, p_ws);
+    const glsl::GnExtentLight panel = glsl::gn_extent_light(light, p_ws);
     EXPECT_TRUE(panel.square);
     EXPECT_EQ(panel.right_ws, 0.5F * vec3(light.right_ws));
     EXPECT_EQ(panel.up_ws, 0.1F * vec3(light.up_ws));
 
     light.kind = GN_LIGHT_DIRECTIONAL;
     light.angular_radius = 0.1F;
-    EXPECT_NEAR(glm::length(glsl::gn_pcss_light(light, p_ws).up_ws), std::tan(0.1), 1e-6);
+    EXPECT_NEAR(glm::length(glsl::gn_extent_light(light, p_ws).up_ws), std::tan(0.1), 1e-6);
 }
 
 /// A point keeps its noise while a pixel there is as large, whatever else the camera does; points beside it have others.
@@ -114,13 +114,13 @@ TEST(Pcss, DistancesAreAlongTheLightsAxisWhateverWayTheViewLooks) {
     const GnLight& light = scene.lights.front().shape;
     const LightViews views = test::place(scene, "pcss,placement=fit");
     const GnLightView& view = views.views.front();
-    const vec3 axis = glsl::gn_pcss_axis(light, vec3(0));
-    const glsl::GnPcssMetres metres = glsl::gn_pcss_metres(view, axis);
+    const vec3 axis = glsl::gn_extent_axis(light, vec3(0));
+    const glsl::GnExtentMetres metres = glsl::gn_extent_metres(view, axis);
     for (const vec3 p_ws : {vec3(0.4F, 0, 0.3F), vec3(-0.5F, 2, -0.6F), vec3(-1, 1, 0.2F)}) {
         const vec2 uv_ts(test::uv_of(view, dvec3(p_ws)));
         const float depth = glm::dot(view.depth_from_ws, vec4(p_ws, 1));
-        EXPECT_NEAR(glsl::gn_pcss_distance(metres, view, uv_ts, depth), glm::dot(axis, p_ws - vec3(light.position_ws)),
-                    1e-4);
+        EXPECT_NEAR(glsl::gn_extent_distance(metres, view, uv_ts, depth),
+                    glm::dot(axis, p_ws - vec3(light.position_ws)), 1e-4);
     }
 }
 
@@ -214,11 +214,12 @@ TEST(Pcss, NarrowKernelsAreLengthenedWhicheverWayTheLightsAxesRun) {
     at.view = views.views.front();
     at.projected = glsl::gn_project(at.receiver, at.view, GnBias{});
     for (const float side : {-1.0F, 1.0F}) {
-        const glsl::GnPcssLight half_light{side * vec3(0.5F, 0, 0), side * vec3(0, 0, 0.5F), true};
+        const glsl::GnExtentLight half_light{side * vec3(0.5F, 0, 0), side * vec3(0, 0, 0.5F), true};
         for (const float spread : {0.0F, 1e-4F, 0.5F}) {
-            const glsl::GnPcssWiden widen = glsl::gn_pcss_widen(glsl::gn_pcss_kernel(at, half_light, spread), 0, 0.01F);
-            const vec2 right = glsl::gn_pcss_shift(at, half_light, vec2(1, 0), spread) + widen.right_ts;
-            const vec2 up = glsl::gn_pcss_shift(at, half_light, vec2(0, 1), spread) + widen.up_ts;
+            const glsl::GnExtentWiden widen =
+                glsl::gn_extent_widen(glsl::gn_extent_kernel(at, half_light, spread), 0, 0.01F);
+            const vec2 right = glsl::gn_extent_shift(at, half_light, vec2(1, 0), spread) + widen.right_ts;
+            const vec2 up = glsl::gn_extent_shift(at, half_light, vec2(0, 1), spread) + widen.up_ts;
             EXPECT_GE(glm::length(right), 0.01 - 1e-6) << spread;
             EXPECT_GE(glm::length(up), 0.01 - 1e-6) << spread;
         }

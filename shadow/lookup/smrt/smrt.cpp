@@ -2,10 +2,10 @@
 // Soft shadows by rays through the map, in the light's physical size, over any placement.
 //
 // Based on: Agrawala, Ramamoorthi, Heirich, Moll. Efficient Image-Based Methods for Rendering Soft Shadows. SIGGRAPH 2000. [ARHM00]
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and how far that reaches over the map)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and how far that reaches over the map)
 #include "shadow/lookup/smrt/smrt.h"
 
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 namespace gn::parts::smrt {

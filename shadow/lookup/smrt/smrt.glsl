@@ -8,7 +8,7 @@
 #define GN_SHADOW_LOOKUP_SMRT_GLSL
 
 #include "shadow/lookup/smrt/smrt.h"
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/receiver/light_extent.glsl"
 #include "shadow/receiver/confidence.glsl"
 
 #ifdef __cplusplus
@@ -17,7 +17,7 @@ namespace gn::glsl {
 
 // Heights are told along the rays from the light's centre: metres of a sun, else shares of the way from the receiver's plane to
 // the light, which are the same in every view around it. Where a ray to point x of the light is when the receiver's plane would
-// be seen moved by `spread` x (gn_pcss_shift); the plane falls away below it 1 - rise times as fast as it climbs.
+// be seen moved by `spread` x (gn_extent_shift); the plane falls away below it 1 - rise times as fast as it climbs.
 GN_FN float gn_smrt_lift(bool far, float spread, float rise) { return far ? spread * rise : spread * rise / (1.0f + spread); }
 
 // The inverse: where the ray is as high as that.
@@ -34,10 +34,10 @@ GN_FN vec3 gn_smrt_per(GnLight light, vec3 p_ws, vec3 n_ws) {
 }
 
 // The light's half axes; a sphere is seen as the disc through its centre that fills the cone of its rays.
-GN_FN GnPcssLight gn_smrt_light(GnLight light, vec3 p_ws) {
-    GnPcssLight half_light = gn_pcss_light(light, p_ws);
+GN_FN GnExtentLight gn_smrt_light(GnLight light, vec3 p_ws) {
+    GnExtentLight half_light = gn_extent_light(light, p_ws);
     if (light.kind == uint(GN_LIGHT_POINT)) {
-        float wider = gn_pcss_bulge(light.radius, length(vec3(light.position_ws) - p_ws));
+        float wider = gn_extent_bulge(light.radius, length(vec3(light.position_ws) - p_ws));
         half_light.right_ws = half_light.right_ws * wider;
         half_light.up_ws = half_light.up_ws * wider;
     }
@@ -69,7 +69,7 @@ GN_FN bool gn_smrt_passes_level(GnSmrtPiece piece, float level) { return piece.l
 
 // What all rays of a receiver share.
 struct GnSmrtFan {
-    GnPcssLight half_light;
+    GnExtentLight half_light;
     vec3 per_ws;
     bool far;
     float spread;    // where rays end: before the nearest that any of them can meet
@@ -88,7 +88,7 @@ float gn_smrt_noise(GnLookup at, GnSmrtParams params) {
     return gn_gradient_noise(texel + 0.5 + 5.588238 * float(at.projected.layer));
 }
 
-GnSmrtFan gn_smrt_fan(GnLookup at, GnPcssLight half_light, float spread, GnSmrtParams params) {
+GnSmrtFan gn_smrt_fan(GnLookup at, GnExtentLight half_light, float spread, GnSmrtParams params) {
     GnSmrtFan fan;
     fan.half_light = half_light;
     fan.far = at.view.eye_ws.w <= 0.5;
@@ -97,7 +97,7 @@ GnSmrtFan gn_smrt_fan(GnLookup at, GnPcssLight half_light, float spread, GnSmrtP
     fan.per_ws = gn_smrt_per(at.light, at.receiver.p_ws, n_ws);
     fan.spread = spread;
     fan.least_ts = params.least * at.projected.texel_ts;
-    vec4 axes_ts = gn_pcss_axes(gn_pcss_kernel(at, half_light, spread));
+    vec4 axes_ts = gn_extent_axes(gn_extent_kernel(at, half_light, spread));
     vec2 right_ts = axes_ts.xy;
     vec2 up_ts = axes_ts.zw;
     float right = length(right_ts);
@@ -113,7 +113,7 @@ GnSmrtFan gn_smrt_fan(GnLookup at, GnPcssLight half_light, float spread, GnSmrtP
 // Where a ray to point q of the light is on the map, from the receiver's own place; never nearer to it than the least fan.
 vec2 gn_smrt_way(GnLookup at, GnSmrtFan fan, vec2 q, float spread) {
     vec2 least = max(vec2(fan.least_ts) - spread * fan.reach, vec2(0.0));
-    return gn_pcss_shift(at, fan.half_light, q, spread) + q.x * least.x * fan.right_way + q.y * least.y * fan.up_way;
+    return gn_extent_shift(at, fan.half_light, q, spread) + q.x * least.x * fan.right_way + q.y * least.y * fan.up_way;
 }
 
 // Where kernels cross views (shadow/receiver/map_access.glsl), rays go on in the view that serves them.
@@ -196,9 +196,9 @@ bool gn_smrt_hidden(GnLookup at, sampler2DArray depth, GnSmrtFan fan, vec2 q, fl
 }
 
 float gn_smrt_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSmrtParams params) {
-    GnPcssLight half_light = gn_smrt_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, true);
+    GnExtentLight half_light = gn_smrt_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentRegion region = gn_extent_region(at, pyramid, half_light, metres, params.least, true);
     if (region.visibility == 1.0) {
         return 1.0;
     }
@@ -206,10 +206,10 @@ float gn_smrt_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     bool one = params.least == 0.0 && half_light.right_ws == vec3(0.0) && half_light.up_ws == vec3(0.0);
     int rays = one ? 1 : params.rays;
     float noise = gn_smrt_noise(at, params);
-    GnPcssPoints points = gn_pcss_points(half_light.square, rays, noise);
+    GnExtentPoints points = gn_extent_points(half_light.square, rays, noise);
     float lit = 0.0;
     for (int i = 0; i < rays; ++i) {
-        vec2 q = gn_pcss_next(points);
+        vec2 q = gn_extent_next(points);
         float jitter = 1.0 - fract(noise + 0.61803399 * float(i));
         lit += gn_smrt_hidden(at, depth, fan, q, jitter, params) ? 0.0 : 1.0;
     }

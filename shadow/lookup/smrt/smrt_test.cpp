@@ -48,7 +48,7 @@ TEST(Smrt, ASphereIsTheDiscThatFillsItsCone) {
     light.kind = GN_LIGHT_POINT;
     light.radius = 0.5F;
     light.position_ws = vec4(0, 2, 0, 1);
-    const glsl::GnPcssLight half_light = glsl::gn_smrt_light(light, vec3(0));
+    const glsl::GnExtentLight half_light = glsl::gn_smrt_light(light, vec3(0));
     EXPECT_NEAR(glm::length(half_light.right_ws), 0.5 * 2 / std::sqrt(4 - 0.25), 1e-5);
 }
 

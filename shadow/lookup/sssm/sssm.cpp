@@ -2,15 +2,16 @@
 // Separable soft shadows: rows of the kernel from the map, and its columns from the neighbours in the picture.
 //
 // Based on: Buades, Gumbau, Chover. Separable Soft Shadow Mapping. The Visual Computer 2016. [BGC16]
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and where what hides it can lie),
+// shadow/lookup/pcss (a texel of the map as its kernels read it)
 #include "shadow/lookup/sssm/sssm.h"
 
 #include "shadow/frame/frame.h"
-#include "shadow/lookup/pcss/light_guard.h"
 #include "shadow/receiver/channels.h"
 #include "shadow/receiver/expect.h"
 #include "shadow/receiver/pixel_pass.h"
 #include "shadow/receiver/sample_pass.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 #include <array>
@@ -29,13 +30,13 @@ vec3 row_ss(vec3 p_ws, vec3 n_ws, vec3 up_ws, float spread, float y) {
 }
 // Whether rows lie closer than pixels do.
 bool rows_close(vec3 p_ws, vec3 n_ws, float spread) {
-    vec3 up_ws = gn_pcss_light(u.light, p_ws).up_ws;
+    vec3 up_ws = gn_extent_light(u.light, p_ws).up_ws;
     vec3 low = row_ss(p_ws, n_ws, up_ws, spread, -1.0);
     vec3 high = row_ss(p_ws, n_ws, up_ws, spread, 1.0);
     return low.z != 0.0 && high.z != 0.0 && distance(low.xy, high.xy) < float(u.params.side);
 }
 void columns(ivec2 pixel, vec3 p_ws, vec4 normal, float spread, inout GnSssmColumn sum) {
-    GnPcssLight half_light = gn_pcss_light(u.light, p_ws);
+    GnExtentLight half_light = gn_extent_light(u.light, p_ws);
     ivec2 size = ivec2(u.view.size.xy);
     float pixel_ws = gn_pixel_growth(u.view, normal.w) * length(u.view.right_ws.xyz);
     for (int j = 0; j < u.params.side; ++j) {
@@ -119,7 +120,7 @@ struct Told {
 constexpr std::array<Told, 2> told{
     {{"blocker-distance", "blocker_distance", "before"},
      {"penumbra-width", "penumbra_width",
-      "gn_pcss_width(gn_pcss_light(u.light, position.xyz), gn_sssm_spread(u.light, position.xyz, before))"}}};
+      "gn_extent_width(gn_extent_light(u.light, position.xyz), gn_sssm_spread(u.light, position.xyz, before))"}}};
 
 /// An image for each side that is asked for; its line of the search's GLSL is added to `text`.
 std::vector<Offer> add_told(const FrameInput& input, ShaderInputs& inputs, std::string& text) {

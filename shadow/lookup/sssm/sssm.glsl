@@ -48,10 +48,10 @@ GN_FN float gn_sssm_spread(GnLight light, vec3 p_ws, float before) {
     if (light.kind == uint(GN_LIGHT_DIRECTIONAL)) {
         return before;
     }
-    float receiver = dot(gn_pcss_axis(light, p_ws), p_ws - vec3(light.position_ws));
+    float receiver = dot(gn_extent_axis(light, p_ws), p_ws - vec3(light.position_ws));
     float blocker = max(receiver - before, 0.0f);
-    float spread = gn_pcss_spread(false, receiver, blocker);
-    return light.kind == uint(GN_LIGHT_POINT) ? spread * gn_pcss_bulge(light.radius, blocker) : spread;
+    float spread = gn_extent_spread(false, receiver, blocker);
+    return light.kind == uint(GN_LIGHT_POINT) ? spread * gn_extent_bulge(light.radius, blocker) : spread;
 }
 
 // Metres and spreads in [0,1], as rows hand them on; 1 where all of the light is hidden. A power of two keeps every bit, whatever
@@ -78,7 +78,7 @@ struct GnSssmSum {
     float before;
 };
 
-void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
+void gn_sssm_add(GnLookup at, sampler2DArray depth, GnExtentMetres metres, float receiver, vec2 tap_ts, float weight, inout GnSssmSum sum) {
     GnPcssTap tap = gn_pcss_tap(at, depth, metres, tap_ts);
     sum.weight += weight;
     if (!tap.lit) {
@@ -89,15 +89,15 @@ void gn_sssm_add(GnLookup at, sampler2DArray depth, GnPcssMetres metres, float r
 
 // The row y of the kernel that the light's points make through a plane at `spread`. A row that stands for the grid is as broad as
 // `least` makes the kernel beyond the light's points, which the rows of neighbours have.
-void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread, float y,
+void gn_sssm_row(GnLookup at, sampler2DArray depth, GnExtentLight half_light, GnExtentMetres metres, float receiver, float spread, float y,
                  bool alone, GnSssmParams params, inout GnSssmSum sum) {
-    GnPcssKernel kernel = gn_pcss_kernel(at, half_light, spread);
-    GnPcssWiden widen = gn_pcss_widen(kernel, 0.0, params.least * at.projected.texel_ts);
+    GnExtentKernel kernel = gn_extent_kernel(at, half_light, spread);
+    GnExtentWiden widen = gn_extent_widen(kernel, 0.0, params.least * at.projected.texel_ts);
     float noise = gn_gradient_noise(at.receiver.p_ss);
     float weight = gn_sssm_weight(half_light.square, y);
     for (int i = 0; i < params.side; ++i) {
         float x = gn_sssm_point(i, params.side, noise, params.jitter);
-        vec2 tap_ts = gn_pcss_tap_ts(at, kernel, widen, vec2(x, y));
+        vec2 tap_ts = gn_extent_tap_ts(at, kernel, widen, vec2(x, y));
         if (alone) {
             tap_ts += gn_sssm_across(i, noise, params.jitter) * gn_sssm_weight(half_light.square, x) * widen.up_ts;
         }
@@ -106,7 +106,7 @@ void gn_sssm_row(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPc
 }
 
 // All rows of a kernel.
-GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnPcssLight half_light, GnPcssMetres metres, float receiver, float spread,
+GnSssmSum gn_sssm_grid(GnLookup at, sampler2DArray depth, GnExtentLight half_light, GnExtentMetres metres, float receiver, float spread,
                        GnSssmParams params) {
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
     for (int j = 0; j < params.side; ++j) {
@@ -126,9 +126,9 @@ bool gn_sssm_close(float spread) { return (floatBitsToUint(spread) & 1u) != 0u; 
 // The row through the receiver of the region where anything can hide the light: how much of it does, how many metres before the
 // receiver, and the region's spread, the last two packed.
 vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentRegion region = gn_extent_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         float before = gn_sssm_pack(max(region.receiver - region.nearest, 0.0));
         return region.visibility > 0.0 ? vec3(0.0) : vec3(1.0, before, 1.0);
@@ -145,8 +145,8 @@ float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyram
     if (spread < 0.0 || spread >= gn_sssm_all()) {
         return spread < 0.0 ? 1.0 : 0.0;
     }
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
+    GnExtentMetres metres = gn_extent_metres_of(at);
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
     if (gn_sssm_close(spread)) {
         sum = gn_sssm_grid(at, depth, half_light, metres, 1.0, spread, params);
@@ -161,9 +161,9 @@ struct GnSssmFound {
     float before;      // metres along the axis from what hides the light to the receiver, on average
 };
 
-GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnPcssLight half_light, GnSssmParams params) {
-    GnPcssMetres metres = gn_pcss_metres_of(at);
-    GnPcssRegion region = gn_pcss_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
+GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnExtentLight half_light, GnSssmParams params) {
+    GnExtentMetres metres = gn_extent_metres_of(at);
+    GnExtentRegion region = gn_extent_region(at, pyramid, half_light, metres, params.least, params.early_out != 0);
     if (region.visibility >= 0.0) {
         return GnSssmFound(region.visibility, 0.0);
     }
@@ -172,28 +172,28 @@ GnSssmFound gn_sssm_search(GnLookup at, sampler2DArray depth, sampler2DArray pyr
 }
 
 float gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnSssmFound found = gn_sssm_search(at, depth, pyramid, half_light, params);
     if (found.visibility >= 0.0) {
         return found.visibility;
     }
     float spread = gn_sssm_spread(at.light, at.receiver.p_ws, found.before);
-    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_pcss_metres_of(at), 1.0, spread, params);
+    GnSssmSum sum = gn_sssm_grid(at, depth, half_light, gn_extent_metres_of(at), 1.0, spread, params);
     return 1.0 - sum.hidden / sum.weight;
 }
 
 // Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
 float gn_sssm_blocker_distance(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
     params.early_out = 0;
-    return gn_sssm_search(at, depth, pyramid, gn_pcss_light(at.light, at.receiver.p_ws), params).before;
+    return gn_sssm_search(at, depth, pyramid, gn_extent_light(at.light, at.receiver.p_ws), params).before;
 }
 
 // Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
 float gn_sssm_penumbra_width(GnLookup at, sampler2DArray depth, sampler2DArray pyramid, GnSssmParams params) {
     params.early_out = 0;
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnSssmFound found = gn_sssm_search(at, depth, pyramid, half_light, params);
-    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_sssm_spread(at.light, at.receiver.p_ws, found.before));
+    return found.visibility >= 0.0 ? 0.0 : gn_extent_width(half_light, gn_sssm_spread(at.light, at.receiver.p_ws, found.before));
 }
 #endif
 #endif

@@ -2,10 +2,10 @@
 // Percentage-closer soft shadows in a few fetches of a prefiltered map.
 //
 // Based on: Yang, Dong, Feng, Seidel, Kautz. Variance Soft Shadow Mapping. Pacific Graphics 2010. [YDF+10]
-// Stands on: shadow/lookup/pcss (the light as a receiver sees it, and where what hides it can lie)
+// Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and where what hides it can lie)
 #include "shadow/lookup/vssm/vssm.h"
 
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
 namespace gn::parts::vssm {

@@ -7,7 +7,7 @@
 #ifndef GN_SHADOW_LOOKUP_VSSM_GLSL
 #define GN_SHADOW_LOOKUP_VSSM_GLSL
 
-#include "shadow/lookup/pcss/pcss_light.glsl"
+#include "shadow/receiver/light_extent.glsl"
 #include "shadow/lookup/vssm/vssm.h"
 #include "shadow/receiver/map_any.glsl"
 
@@ -42,10 +42,10 @@ GN_FN float gn_vssm_overhang(bool square, int side) {
     return square ? 1.0f : max(gn_vssm_share(false) * (1.41421356f * (1.0f - part) + part), 1.0f);
 }
 
-GN_FN GnVssmKernel gn_vssm_kernel(GnLookup at, GnPcssLight half_light, float spread, float least_ts, int side) {
-    GnPcssKernel points = gn_pcss_kernel(at, half_light, spread);
-    GnPcssWiden widen = gn_pcss_widen(points, 0.0f, least_ts);
-    vec4 axes_ts = gn_pcss_axes(points);
+GN_FN GnVssmKernel gn_vssm_kernel(GnLookup at, GnExtentLight half_light, float spread, float least_ts, int side) {
+    GnExtentKernel points = gn_extent_kernel(at, half_light, spread);
+    GnExtentWiden widen = gn_extent_widen(points, 0.0f, least_ts);
+    vec4 axes_ts = gn_extent_axes(points);
     float share = gn_vssm_share(half_light.square);
     GnVssmKernel kernel;
     kernel.right_ts = share * (vec2(axes_ts.x, axes_ts.y) + widen.right_ts);
@@ -98,7 +98,7 @@ float gn_vssm_agreed(GnLookup plane, GnLookup around, sampler2DArray pyramid, ve
     }
     ivec2 first = ivec2(floor(low_ts / projected.texel_ts));
     ivec2 last = max(ivec2(floor(min(high_ts, projected.bounds_ts.zw - 0.5 * projected.texel_ts) / projected.texel_ts)), first);
-    vec2 range = gn_pcss_plane(plane, projected.uv_ts, half_ts + projected.texel_ts);
+    vec2 range = gn_extent_plane(plane, projected.uv_ts, half_ts + projected.texel_ts);
     bvec2 beyond = gn_pyramid_beyond(pyramid, first, last, projected.layer, range);
     return !beyond.x ? 0.0 : beyond.y ? -1.0 : 1.0;
 }
@@ -110,14 +110,14 @@ struct GnVssmFound {
 };
 
 // What hides the light in each part of the region where anything can, and how far away it is.
-GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half_light, GnVssmParams params) {
-    GnPcssMetres metres = gn_pcss_metres_of(at);
+GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnExtentLight half_light, GnVssmParams params) {
+    GnExtentMetres metres = gn_extent_metres_of(at);
     // The region holds all that the parts read, or its extremes would decide on fewer texels than they do. Two axes reach as far
     // along one of the map's as both are long.
     float overhang = gn_vssm_overhang(half_light.square, params.side);
-    GnPcssLight parts_light = GnPcssLight(overhang * half_light.right_ws, overhang * half_light.up_ws, half_light.square);
+    GnExtentLight parts_light = GnExtentLight(overhang * half_light.right_ws, overhang * half_light.up_ws, half_light.square);
     float more = 2.0 * overhang * params.least + 0.5;
-    GnPcssRegion region = gn_pcss_region(at, pyramid, parts_light, metres, more, params.early_out != 0);
+    GnExtentRegion region = gn_extent_region(at, pyramid, parts_light, metres, more, params.early_out != 0);
     GnVssmFound result = GnVssmFound(region.visibility, region.receiver, region.receiver);
     if (result.visibility >= 0.0) {
         return result;
@@ -134,7 +134,7 @@ GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half
         vec2 found = GN_MAP_BLOCKERS(part, vec2(2.0 * kernel.box_ts.x, 0.0), vec2(0.0, 2.0 * kernel.box_ts.y));
         float depth = clamp(found.y, 0.0, max(part.projected.depth, 0.0));
         hidden += found.x;
-        distance += found.x * gn_pcss_seen(at, part, metres, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
+        distance += found.x * gn_extent_seen(at, part, metres, middle_ts, part.projected.uv_ts, part.projected.depth, depth);
     }
     if (hidden <= 1.0e-3 * float(parts)) {
         // Moments that find nothing are wrong where all texels hide the light.
@@ -148,7 +148,7 @@ GnVssmFound gn_vssm_search(GnLookup at, sampler2DArray pyramid, GnPcssLight half
 }
 
 float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnVssmFound found = gn_vssm_search(at, pyramid, half_light, params);
     if (found.visibility >= 0.0) {
         return found.visibility;
@@ -157,7 +157,7 @@ float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams param
     // Filter as wide as the penumbra.
     int parts = params.side * params.side;
     float least_ts = params.least * at.projected.texel_ts;
-    float spread = gn_pcss_spread_at(at, found.receiver, found.blocker);
+    float spread = gn_extent_spread_at(at, found.receiver, found.blocker);
     GnVssmKernel kernel = gn_vssm_kernel(at, half_light, spread, least_ts, params.side);
     float lit = 0.0;
     for (int i = 0; i < parts; ++i) {
@@ -175,16 +175,16 @@ float gn_vssm_visibility(GnLookup at, sampler2DArray pyramid, GnVssmParams param
 // Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
 float gn_vssm_blocker_distance(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
     params.early_out = 0;
-    GnVssmFound found = gn_vssm_search(at, pyramid, gn_pcss_light(at.light, at.receiver.p_ws), params);
+    GnVssmFound found = gn_vssm_search(at, pyramid, gn_extent_light(at.light, at.receiver.p_ws), params);
     return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
 }
 
 // Metres across the penumbra, where it lies across the axis; 0 where nothing hides the light.
 float gn_vssm_penumbra_width(GnLookup at, sampler2DArray pyramid, GnVssmParams params) {
     params.early_out = 0;
-    GnPcssLight half_light = gn_pcss_light(at.light, at.receiver.p_ws);
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     GnVssmFound found = gn_vssm_search(at, pyramid, half_light, params);
-    return found.visibility >= 0.0 ? 0.0 : gn_pcss_width(half_light, gn_pcss_spread_at(at, found.receiver, found.blocker));
+    return found.visibility >= 0.0 ? 0.0 : gn_extent_width(half_light, gn_extent_spread_at(at, found.receiver, found.blocker));
 }
 
 #endif

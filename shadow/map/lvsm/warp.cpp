@@ -31,7 +31,7 @@ void main() {
 }
 )";
 
-struct Push {
+struct WarpPush {
     int map_layer, first;
 };
 
@@ -95,7 +95,7 @@ TextureHandle add_warp(const FrameInput& input, TextureHandle depths, TextureHan
                                       include_line("shadow/map/lvsm/lvsm.glsl") + inputs.text() + warp_text}));
     });
     for (std::uint32_t layer = 0; layer < desc.layers; ++layer) {
-        const Push push{static_cast<int>(layer / textures), static_cast<int>(layer % textures) * 2};
+        const WarpPush push{static_cast<int>(layer / textures), static_cast<int>(layer % textures) * 2};
         input.graph.add_pass(
             "lvsm: warp",
             [&](PassBuilder& pass) {

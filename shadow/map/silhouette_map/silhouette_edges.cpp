@@ -80,7 +80,7 @@ std::shared_ptr<const SilhouetteEdges> edges_of(const FrameInput& input) {
                         [&] { return make_edges(input.device, input.scene, kinds); });
 }
 
-struct Push {
+struct EdgePush {
     int view, map_layer;
 };
 
@@ -112,7 +112,7 @@ void draw_edges(Recorder& r, const EdgeDraw& draw, const LightViews& views, cons
     }
     r.bind(*draw.shader);
     draw.inputs.set(r);
-    r.push_value(Push{static_cast<int>(view.index), static_cast<int>(view.layer)});
+    r.push_value(EdgePush{static_cast<int>(view.index), static_cast<int>(view.layer)});
     views.tiles ? r.draw_indirect(draw.tile_draw) : r.draw(6 * draw.edges);
 }
 

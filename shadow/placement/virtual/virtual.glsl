@@ -122,7 +122,7 @@ int gn_virtual_whole(GnReceiver receiver, GnVirtualData data) {
     int face = data.eye_ws.w > 0.5 ? gn_face_of(receiver.p_ws - data.eye_ws.xyz) : 0;
     return max(int(gn_virtual_pages(2 * gn_virtual_slot(data.faces, 0, face, ivec2(0)) + 1)) - 1, 0);
 }
-// For lookups that ask what a region holds, which lies on many pages (shadow/lookup/pcss/pcss_light.glsl).
+// For lookups that ask what a region holds, which lies on many pages (shadow/receiver/light_extent.glsl).
 #define GN_WHOLE_CHOICE(receiver) gn_virtual_whole(receiver, placement)
 
 // The level that a page's view belongs to: by how much it is narrower than the face. What pictures show of it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shadow/lookup/pcss/light_guard.h"
+#include "shadow/recipe/light_guard.h"
 
 #include <algorithm>
 #include <cmath>
