@@ -2,9 +2,11 @@
 // Percentage-closer soft shadows, in the light's physical size, over any placement.
 //
 // Based on: Fernando. Percentage-Closer Soft Shadows. SIGGRAPH Sketches 2005. [Fer05]
+// Stands on: shadow/lookup/smrt (rays.glsl: a ray's way through a map)
 // Also here: pcss_tap.glsl (a texel of the map as its kernels read it)
 #include "shadow/lookup/pcss/pcss.h"
 
+#include "shadow/lookup/smrt/smrt.h"
 #include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
 
@@ -18,7 +20,17 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
 
 std::string prologue(const Recipe& recipe) {
     const auto& params = recipe.of<GnPcssParams>("pcss");
-    return fmt::format("#define GN_PCSS_TAP {}\n{}", params.tap, params.planes != 0 ? "#define GN_PCSS_PLANES\n" : "");
+    std::string lines = fmt::format("#define GN_PCSS_TAP {}\n", params.tap);
+    if (params.planes != 0) {
+        lines += "#define GN_PCSS_PLANES\n";
+    }
+    if (params.rays > 0) {
+        const GnSmrtParams rays;
+        lines +=
+            fmt::format("#define GN_PCSS_RAYS\n#define GN_PCSS_RAY_STEPS {}\n#define GN_PCSS_RAYS_STEEPEST {:.6e}\n",
+                        rays.steps, rays.steepest);
+    }
+    return lines;
 }
 
 std::vector<std::string_view> needs_for(const Recipe& recipe) {
@@ -57,6 +69,14 @@ ParamTable rows() {
                  "depths "
                  "cannot tell of slanted ground that it is lit. V stays the same; pays where much of a large picture "
                  "is open."),
+        GN_PARAM(GnPcssParams, rays, integer, 0, 256, "",
+                 "Rays through the map, as smrt sends them, in place of search and filter where a caster cages the "
+                 "light: each bar of "
+                 "a lantern keeps its own distance; 0 takes all casters for one plane there, too."),
+        GN_PARAM(GnPcssParams, caged, real, 0, 1000, "half widths of the light",
+                 "How near to a lamp a caster cages it: with more, rays go wherever something hides it, which costs "
+                 "more and "
+                 "leaks where a caster hides another."),
         GN_CHOICE(
             GnPcssParams, noise,
             "What turns the taps: the place in the picture, so that noise swims over surfaces as the camera moves, or "
@@ -86,7 +106,8 @@ const Part& lookup_pcss() {
         p.needs_for = needs_for;
         p.searches_pages = true;
         p.sides = {
-            {"search-class", "", "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read."},
+            {"search-class", "",
+             "Why a search ended: 1 all of the light is seen, 2 none of it, 3 texels were read, 4 rays were sent."},
             {"blocker-distance", "m",
              "How far along the light's depth what hides a sample lies before it, on average."},
             {"penumbra-width", "m", "How wide the penumbra is at a sample, across the rays."},

@@ -4,7 +4,8 @@
 // Penumbrae and what the search assumes: Eisemann, Assarsson, Schwarz, Wimmer. Casting Shadows in Real Time. SIGGRAPH Asia
 // Courses 2009. [EASW09], 5.2.2.
 // Departs from them: taps are points of the light itself, in its own shape and place, as the receiver sees them through a
-// plane at the blockers' depth; a pyramid of least and greatest depths narrows the search and ends it early.
+// plane at the blockers' depth; a pyramid of least and greatest depths narrows the search and ends it early; rays go through the
+// map where casters cage the light [ARHM00].
 #ifndef GN_SHADOW_LOOKUP_PCSS_GLSL
 #define GN_SHADOW_LOOKUP_PCSS_GLSL
 
@@ -32,6 +33,14 @@
 #define GN_PCSS_THESE depth, pyramid
 #endif
 
+// Rays where casters cage the light, and what they take from smrt:
+//   #define GN_PCSS_RAYS
+//   with #define GN_PCSS_RAY_STEPS 8
+//   with #define GN_PCSS_RAYS_STEEPEST 6.0
+#ifdef GN_PCSS_RAYS
+#include "shadow/lookup/smrt/rays.glsl"
+#endif
+
 // What turns the taps from pixel to pixel, or from place to place on the surface; there a pixel's size is the mean of its sides.
 float gn_pcss_noise(GnReceiver receiver, GnPcssParams params) {
     if (params.noise == GN_PCSS_OF_PIXEL) {
@@ -41,7 +50,7 @@ float gn_pcss_noise(GnReceiver receiver, GnPcssParams params) {
 }
 
 struct GnPcssFound {
-    float visibility;  // 0 or 1 where the extremes decide or nothing was found, else -1
+    float visibility;  // 1 where nothing was found, of a region what it decides, else -1
     float receiver;    // metres along the axis
     float blocker;     // their mean, or the nearest
 };
@@ -69,15 +78,30 @@ GnExtentRegion gn_pcss_where(GnLookup at, GN_PCSS_MAPS, GnExtentLight half_light
 #endif
 }
 
-GnPcssFound gn_pcss_search(GnLookup at, GN_PCSS_MAPS, GnExtentLight half_light,
+// Whether what hides the light can stand so near to it that it has no one distance.
+bool gn_pcss_caged(GnLookup at, GnExtentLight half_light, GnExtentRegion region, GnPcssParams params) {
+#ifdef GN_PCSS_RAYS
+    bool near = region.nearest < params.caged * max(length(half_light.right_ws), length(half_light.up_ws));
+    return GN_VIEW_KIND != 0 && at.view.eye_ws.w > 0.5 && near;
+#else
+    return false;
+#endif
+}
+
+// The share of the light that rays see through the map. [ARHM00]
+float gn_pcss_by_rays(GnLookup at, sampler2DArray depth, GnExtentRegion region, GnPcssParams params, float noise) {
+#ifdef GN_PCSS_RAYS
+    GnSmrtParams rays = GnSmrtParams(params.rays, GN_PCSS_RAY_STEPS, params.least, GN_SMRT_EXTENDED, GN_PCSS_RAYS_STEEPEST, 0);
+    return gn_smrt_share(at, depth, gn_smrt_light(at.light, at.receiver.p_ws), region.spread, rays, noise);
+#else
+    return -1.0;
+#endif
+}
+
+GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, GnExtentLight half_light, GnExtentRegion region,
                            GnPcssParams params, float noise) {
     GnExtentMetres metres = gn_extent_metres_of(at);
-    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
-    GnPcssFound result = GnPcssFound(region.visibility, region.receiver, region.receiver);
-    if (result.visibility >= 0.0) {
-        return result;
-    }
-
+    GnPcssFound result = GnPcssFound(-1.0, region.receiver, region.receiver);
     GnExtentKernel kernel = gn_extent_kernel(at, half_light, region.spread);
     GnExtentWiden widen = gn_extent_widen(kernel, params.least * at.projected.texel_ts, 0.0);
     GnExtentPoints points = gn_extent_points(half_light.square, params.search_taps, noise);
@@ -109,7 +133,14 @@ float gn_pcss_lit(GnLookup at, sampler2DArray depth, GnExtentMetres metres, GnPc
 float gn_pcss_visibility(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
     float noise = gn_pcss_noise(at.receiver, params);
-    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, noise);
+    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
+    if (region.visibility >= 0.0) {
+        return region.visibility;
+    }
+    if (gn_pcss_caged(at, half_light, region, params)) {
+        return gn_pcss_by_rays(at, depth, region, params, noise);
+    }
+    GnPcssFound found = gn_pcss_search(at, depth, half_light, region, params, noise);
     if (found.visibility >= 0.0) {
         return found.visibility;
     }
@@ -129,17 +160,30 @@ float gn_pcss_visibility(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     return lit / float(taps);
 }
 
-// Why a search ended: 1 all of the light is seen, 2 none of it, 3 the texels had to be read.
+// Why a search ended: 1 all of the light is seen, 2 none of it, 3 the texels had to be read, 4 by rays.
 float gn_pcss_search_class(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
-    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, gn_extent_light(at.light, at.receiver.p_ws), params);
-    return region.visibility == 1.0 ? 1.0 : region.visibility == 0.0 ? 2.0 : 3.0;
+    GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
+    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
+    if (region.visibility >= 0.0) {
+        return region.visibility == 1.0 ? 1.0 : 2.0;
+    }
+    return gn_pcss_caged(at, half_light, region, params) ? 4.0 : 3.0;
+}
+
+// What the search finds where no region decides.
+GnPcssFound gn_pcss_blockers(GnLookup at, GN_PCSS_MAPS, GnExtentLight half_light, GnPcssParams params) {
+    GnExtentRegion region = gn_pcss_where(at, GN_PCSS_THESE, half_light, params);
+    if (region.visibility >= 0.0) {
+        return GnPcssFound(region.visibility, region.receiver, region.receiver);
+    }
+    return gn_pcss_search(at, depth, half_light, region, params, gn_pcss_noise(at.receiver, params));
 }
 
 // Metres along the axis from the receiver to what hides the light from it; 0 where nothing does.
 float gn_pcss_blocker_distance(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
     GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_blockers(at, GN_PCSS_THESE, half_light, params);
     return found.visibility >= 0.0 ? 0.0 : found.receiver - found.blocker;
 }
 
@@ -147,14 +191,14 @@ float gn_pcss_blocker_distance(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
 float gn_pcss_penumbra_width(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     params.early_out = 0;
     GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_blockers(at, GN_PCSS_THESE, half_light, params);
     return found.visibility >= 0.0 ? 0.0 : gn_extent_width(half_light, gn_extent_spread_at(at, found.receiver, found.blocker));
 }
 
 // Half the shorter side of the filter on the light's plane, before `least` widens it; 0 where all of the light is seen or none.
 float gn_pcss_filter_radius(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     GnExtentLight half_light = gn_extent_light(at.light, at.receiver.p_ws);
-    GnPcssFound found = gn_pcss_search(at, GN_PCSS_THESE, half_light, params, gn_pcss_noise(at.receiver, params));
+    GnPcssFound found = gn_pcss_blockers(at, GN_PCSS_THESE, half_light, params);
     if (found.visibility >= 0.0) {
         return 0.0;
     }

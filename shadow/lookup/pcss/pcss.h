@@ -26,6 +26,8 @@ struct GnPcssParams {
     int early_out GN_DEFAULT(1);
     int extremes GN_DEFAULT(GN_PCSS_TEXELS);
     int planes GN_DEFAULT(0);
+    int rays GN_DEFAULT(0);
+    float caged GN_DEFAULT(3.0f);
     int noise GN_DEFAULT(GN_PCSS_OF_SURFACE);
     int tap GN_DEFAULT(GN_PCSS_ONE_TEXEL);
 };

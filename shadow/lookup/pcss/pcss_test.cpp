@@ -255,6 +255,50 @@ TEST(PcssRendered, SlantedGroundsAreKnownToBeLit) {
     }
 }
 
+/// What `--show` shows of the first light, two values a pixel: it, and whether it is there.
+std::vector<float> hidden(const char* scene, const std::string& recipe, const std::string& name) {
+    const Scene made = load_scene(scene);
+    SceneGpu gpu = upload_scene(test::device(), made);
+    const std::vector<std::string> names{name};
+    const Recipe read = load_recipe(recipe);
+    return show_hidden(test::device(), gpu, made.camera(""), read, names, {.width = 96, .height = 72})
+        .front()
+        .values.values;
+}
+
+bool holds(const std::vector<float>& values, float value) {
+    return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+/// Bars that stand three radii from a lantern have no one distance: one plane for all of them errs by as much as no search at all.
+TEST(PcssRendered, RaysTellTheBarsOfACage) {
+    Scene scene = test::built_in("courtyard");
+    scene.lights = {scene.lights[1]};
+    const test::ComparisonOptions size{.width = 96, .height = 54, .samples = 64};
+    const std::string maps = "soft,resolution=1024,placement=cube,pcss.rays=";
+    const auto plane = test::compare(scene, maps + "0", size);
+    const auto rays = test::compare(std::move(scene), maps + "24", size);
+    EXPECT_LT(*rays.errors.rmse, 0.6 * *plane.errors.rmse);
+    EXPECT_LT(*rays.errors.penumbra, 0.5 * *plane.errors.penumbra);
+}
+
+/// They are those of smrt, with the same settings, and go nowhere else.
+TEST(PcssRendered, RaysAreSmrtsAndGoWhereCastersAreNearTheLight) {
+    const char* const scene = "contact:light=spot,radius=3";
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 4};
+    const std::string rays = "pcss,resolution=512,pcss.extremes=blocks,pcss.noise=pixel,pcss.least=1,pcss.rays=16";
+    const auto all = test::compare(scene, rays + ",pcss.caged=1000", size);
+    const auto smrt = test::compare(scene, "smrt,placement=fit,resolution=512,smrt.least=1,smrt.noise=pixel", size);
+    EXPECT_EQ(all.visibility().values, smrt.visibility().values);
+
+    const auto far = test::compare(scene, rays, size);
+    const auto none = test::compare(scene, rays + ",pcss.rays=0", size);
+    EXPECT_EQ(far.visibility().values, none.visibility().values);
+    EXPECT_NE(far.visibility().values, all.visibility().values);
+    EXPECT_TRUE(holds(hidden(scene, rays + ",pcss.caged=1000", "search-class"), 4));
+    EXPECT_FALSE(holds(hidden(scene, rays, "search-class"), 4));
+}
+
 /// What pyramid and planes decide, the full loops would have found.
 TEST(PcssRendered, EarlyOutsChangeNoSample) {
     for (const char* scene : {"half-plane", "contact:light=spot", "contact:light=point", "fence", "tilted:radius=3"}) {

@@ -3,6 +3,7 @@
 //
 // Based on: Agrawala, Ramamoorthi, Heirich, Moll. Efficient Image-Based Methods for Rendering Soft Shadows. SIGGRAPH 2000. [ARHM00]
 // Stands on: shadow/receiver/light_extent.glsl (the light as a receiver sees it, and how far that reaches over the map)
+// Also here: rays.glsl (a ray's way through a map)
 #include "shadow/lookup/smrt/smrt.h"
 
 #include "shadow/recipe/light_guard.h"
