@@ -2,6 +2,7 @@
 #include "apps/compare/path.h"
 
 #include "shadow/frame/history.h"
+#include "shadow/metrics/few.h"
 #include "shadow/metrics/flicker.h"
 
 namespace gn {
@@ -90,6 +91,9 @@ void measure_path(RunResult& run, ViewSession& view, Bench& bench, const Prepare
     for (std::size_t l = 0; l < of_light.size(); ++l) {
         if (view.wanted(l)) {
             run.lights[at++].errors.flicker = of_light[l].root_mean_square();
+            if (std::string remark = few_changes(of_light[l], view.scene().lights[l].name); !remark.empty()) {
+                run.remarks.push_back(std::move(remark));
+            }
             all += of_light[l];
         }
     }

@@ -20,4 +20,15 @@ std::vector<std::string> few_samples(const Errors& errors, const std::string& li
     return said;
 }
 
+std::string few_changes(const Flicker& flicker, const std::string& light) {
+    constexpr double enough = 20;
+    const double told_by = flicker.told_by();
+    if (told_by == 0 || told_by >= enough) {
+        return {};
+    }
+    return fmt::format(
+        "'flicker' of light '{}' is told by about {:.0f} of {} points that two frames show; larger pictures show more",
+        light, told_by, flicker.samples);
+}
+
 }  // namespace gn

@@ -56,11 +56,16 @@ SignedError signed_error(std::span<const float> technique, std::span<const float
 Flicker& Flicker::operator+=(const Flicker& more) {
     samples += more.samples;
     squares += more.squares;
+    fourths += more.fourths;
     return *this;
 }
 
 std::optional<double> Flicker::root_mean_square() const {
     return samples == 0 ? std::nullopt : std::optional(std::sqrt(squares / static_cast<double>(samples)));
+}
+
+double Flicker::told_by() const {
+    return fourths > 0 ? squares * squares / fourths : 0;
 }
 
 Flicker flicker_between(const SignedError& from, const SignedError& to, std::span<const int> same) {
@@ -73,6 +78,7 @@ Flicker flicker_between(const SignedError& from, const SignedError& to, std::spa
         const auto change =
             static_cast<double>(to.values[static_cast<std::size_t>(same[i])]) - static_cast<double>(from.values[i]);
         sum.squares += change * change;
+        sum.fourths += change * change * change * change;
         ++sum.samples;
     }
     return sum;

@@ -50,8 +50,11 @@ SignedError signed_error(std::span<const float> technique, std::span<const float
 struct Flicker {
     std::size_t samples = 0;
     double squares = 0;
+    double fourths = 0;  ///< fourth powers
     Flicker& operator+=(const Flicker& more);
     [[nodiscard]] std::optional<double> root_mean_square() const;  ///< absent without samples
+    /// By how many changes it is told: all of them where all are alike, 1 where a single one is all there is; 0 without change.
+    [[nodiscard]] double told_by() const;
 };
 /// Over the pairs of `same` that count in both frames.
 Flicker flicker_between(const SignedError& from, const SignedError& to, std::span<const int> same);

@@ -68,6 +68,8 @@ TEST(Flicker, IsTheRootMeanSquareChangeByHand) {
     // A second step without any change halves the mean square.
     flicker += flicker_between(after, after, same_points(wall.view, wall.view));
     EXPECT_NEAR(flicker.root_mean_square().value(), std::sqrt(38.0 / 800), 1e-6);
+    // 200 changes and a few that hardly matter.
+    EXPECT_NEAR(flicker.told_by(), 76 * 76 / (200 * 0.1296 + 100 * 0.0016), 1e-3);
 
     // What counts in one frame only is left out.
     std::fill_n(after.counted.begin(), 200, std::uint8_t{0});

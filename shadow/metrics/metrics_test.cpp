@@ -50,6 +50,16 @@ TEST(Metrics, AFigureThatFewSamplesTellSaysSo) {
     EXPECT_EQ(few_samples(Errors{}, "sun"), std::vector<std::string>{});
 }
 
+TEST(Metrics, FlickerThatFewChangesTellSaysSo) {
+    // Nineteen equal changes among a thousand points, and twenty.
+    const Flicker few{.samples = 1000, .squares = 19 * 0.25, .fourths = 19 * 0.0625};
+    EXPECT_EQ(
+        few_changes(few, "sun"),
+        "'flicker' of light 'sun' is told by about 19 of 1000 points that two frames show; larger pictures show more");
+    EXPECT_EQ(few_changes({.samples = 1000, .squares = 20 * 0.25, .fourths = 20 * 0.0625}, "sun"), "");
+    EXPECT_EQ(few_changes({.samples = 1000}, "sun"), "");
+}
+
 TEST(Metrics, HandComputedPicture) {
     // Eight samples, the last two not counted.
     const Floats reference{0, 0, 1, 1, 0.5F, 0.25F, 1, 0};
