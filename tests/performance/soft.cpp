@@ -29,7 +29,7 @@ void soft(Bench& bench) {
     const std::string taps = "pcss,pcss.search_taps=16,pcss.taps=25,pcss.density=64,pcss.early_out=";
     for (const char* scene : {"courtyard", "contact:radius=3"}) {
         print_title(fmt::format("{}: pcss of 16 + 25 taps", scene).c_str());
-        for (const char* early_out : {"false", "true", "true,pcss.planes=true"}) {
+        for (const char* early_out : {"false,pcss.planes=false", "true,pcss.planes=false", "true,pcss.planes=true"}) {
             const Recipe recipe = load_recipe(taps + early_out);
             Recipe bare = recipe;
             bare.params.insert_or_assign(std::string(fetches.id), recipe.block(*recipe.lookup));

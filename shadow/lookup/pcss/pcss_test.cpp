@@ -304,7 +304,7 @@ TEST(PcssRendered, EarlyOutsChangeNoSample) {
     for (const char* scene : {"half-plane", "contact:light=spot", "contact:light=point", "fence", "tilted:radius=3"}) {
         const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 4};
         const auto without = test::compare(scene, "pcss,resolution=512,pcss.early_out=false", size);
-        for (const char* planes : {"", ",pcss.planes=true"}) {
+        for (const char* planes : {",pcss.planes=false", ",pcss.planes=true"}) {
             const auto with = test::compare(scene, std::string("pcss,resolution=512") + planes, size);
             EXPECT_EQ(with.visibility().values, without.visibility().values) << scene << planes;
         }
