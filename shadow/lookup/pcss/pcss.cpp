@@ -71,12 +71,10 @@ ParamTable rows() {
                  "is open."),
         GN_PARAM(GnPcssParams, rays, integer, 0, 256, "",
                  "Rays through the map, as smrt sends them, in place of search and filter where a caster cages the "
-                 "light: each bar of "
-                 "a lantern keeps its own distance; 0 takes all casters for one plane there, too."),
+                 "light: each bar of a lantern keeps its own distance; 0 takes all casters for one plane there, too."),
         GN_PARAM(GnPcssParams, caged, real, 0, 1000, "half widths of the light",
                  "How near to a lamp a caster cages it: with more, rays go wherever something hides it, which costs "
-                 "more and "
-                 "leaks where a caster hides another."),
+                 "more and leaks where a caster hides another."),
         GN_CHOICE(
             GnPcssParams, noise,
             "What turns the taps: the place in the picture, so that noise swims over surfaces as the camera moves, or "
