@@ -8,7 +8,7 @@
 struct GnPerceptualParams {
     float c GN_DEFAULT(3.47f);
     float radius GN_DEFAULT(0.0f);
-    float least GN_DEFAULT(0.002f);
+    float least GN_DEFAULT(0.0005f);
     float change GN_DEFAULT(0.25f);
 };
 
