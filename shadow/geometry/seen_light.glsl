@@ -7,6 +7,7 @@
 #ifndef GN_SHADOW_GEOMETRY_SEEN_LIGHT_GLSL
 #define GN_SHADOW_GEOMETRY_SEEN_LIGHT_GLSL
 
+#include "shadow/receiver/across.glsl"
 #include "shadow/scene/light.h"
 
 #ifdef __cplusplus
@@ -20,15 +21,6 @@ struct GnSeenLight {
     vec3 x_ws, y_ws;  // the plane's axes, divided by the light's half sizes
     float height;     // of the plane above the receiver, along forward_ws
 };
-
-// Two unit vectors across a unit vector; x cross y = n. [DBC+17]
-GN_FN void gn_across(vec3 n, GN_OUT(vec3) x, GN_OUT(vec3) y) {
-    float s = n.z >= 0.0f ? 1.0f : -1.0f;
-    float a = -1.0f / (s + n.z);
-    float b = n.x * n.y * a;
-    x = vec3(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
-    y = vec3(b, s + n.y * n.y * a, -n.y);
-}
 
 // Half of the light's widths: metres, or the tangent of the sun's radius at a height of 1.
 GN_FN vec2 gn_light_half_size(GnLight light) {

@@ -5,6 +5,7 @@
 #ifndef GN_SHADOW_RECEIVER_LIGHT_EXTENT_GLSL
 #define GN_SHADOW_RECEIVER_LIGHT_EXTENT_GLSL
 
+#include "shadow/receiver/across.glsl"
 #include "shadow/receiver/map_range.glsl"
 #include "shadow/receiver/map_access.glsl"
 #include "shadow/receiver/noise.glsl"
@@ -21,15 +22,6 @@ struct GnExtentLight {
     bool square;
 };
 
-// Two axes across a unit vector. [Duff et al. 2017]
-GN_FN void gn_extent_axes(vec3 n, GN_OUT(vec3) right, GN_OUT(vec3) up) {
-    float side = n.z >= 0.0f ? 1.0f : -1.0f;
-    float a = -1.0f / (side + n.z);
-    float b = n.x * n.y * a;
-    right = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
-    up = vec3(b, side + n.y * n.y * a, -n.y);
-}
-
 GN_FN GnExtentLight gn_extent_light(GnLight light, vec3 p_ws) {
     GnExtentLight half_light;
     half_light.square = light.kind == uint(GN_LIGHT_RECTANGLE);
@@ -41,7 +33,7 @@ GN_FN GnExtentLight gn_extent_light(GnLight light, vec3 p_ws) {
     vec3 right_ws;
     vec3 up_ws;
     // A spot is a disc across its axis; spheres and suns turn their disc to the receiver.
-    gn_extent_axes(light.kind == uint(GN_LIGHT_SPOT) ? vec3(light.direction_ws) : gn_to_light(light, p_ws), right_ws, up_ws);
+    gn_across(light.kind == uint(GN_LIGHT_SPOT) ? vec3(light.direction_ws) : gn_to_light(light, p_ws), right_ws, up_ws);
     float radius = light.kind == uint(GN_LIGHT_DIRECTIONAL) ? tan(light.angular_radius) : light.radius;
     half_light.right_ws = right_ws * radius;
     half_light.up_ws = up_ws * radius;
@@ -154,10 +146,6 @@ GN_FN vec2 gn_extent_way(GnExtentKernel kernel, vec2 q) {
         way_ts /= max(1.0f + dot(kernel.fall, q), 0.1f);
     }
     return GN_VIEW_KIND >= 3 ? vec2(way_ts.x, gn_log_unstep(way_ts.y, kernel.rows)) : way_ts;
-}
-
-GN_FN vec2 gn_extent_shift(GnLookup at, GnExtentLight half_light, vec2 q, float spread) {
-    return gn_extent_way(gn_extent_kernel(at, half_light, spread), q);
 }
 
 // The ways of the points (1, 0) and (0, 1).

@@ -7,6 +7,7 @@
 #ifndef GN_SHADOW_BACKPROJECTION_LIGHT_PLANE_GLSL
 #define GN_SHADOW_BACKPROJECTION_LIGHT_PLANE_GLSL
 
+#include "shadow/receiver/across.glsl"
 #include "shadow/receiver/receiver.glsl"
 
 #ifdef __cplusplus
@@ -25,15 +26,6 @@ struct GnBackLight {
     bool disc;
     bool far;
 };
-
-// Two axes across a unit vector. [Duff et al. 2017]
-GN_FN void gn_back_axes(vec3 n, GN_OUT(vec3) right, GN_OUT(vec3) up) {
-    float side = n.z >= 0.0f ? 1.0f : -1.0f;
-    float a = -1.0f / (side + n.z);
-    float b = n.x * n.y * a;
-    right = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
-    up = vec3(b, side + n.y * n.y * a, -n.y);
-}
 
 // Half the width of the disc through a sphere's centre that the receiver sees where it sees the sphere. A receiver within the
 // sphere, or nearly so, sees a wide disc.
@@ -66,7 +58,7 @@ GN_FN GnBackLight gn_back_light(GnLight light, vec3 p_ws) {
         result.up_ws = vec3(light.up_ws) * half_size.y;
         return result;
     }
-    gn_back_axes(result.toward_ws, result.right_ws, result.up_ws);
+    gn_across(result.toward_ws, result.right_ws, result.up_ws);
     float radius = result.far ? tan(light.angular_radius) : light.radius;
     radius = max(turned ? gn_back_silhouette(radius, result.height) : radius, least);
     result.right_ws = result.right_ws * radius;

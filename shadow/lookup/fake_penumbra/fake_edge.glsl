@@ -45,7 +45,7 @@ GN_FN GnExtentLight gn_fake_light(GnLight light, vec3 p_ws) {
 GN_FN float gn_fake_norm(bool square, vec2 q) { return square ? max(abs(q.x), abs(q.y)) : length(q); }
 
 // Which point of the light sees the receiver where its map shows something `d_ts` away: q times the spread of what is there. The
-// inverse of gn_extent_shift, which moves along (right, up) q and divides by 1 + fall.q.
+// inverse of gn_extent_way, which moves along (right, up) q and divides by 1 + fall.q.
 struct GnFakeAxes {
     vec2 x;  // q.x = dot(x, d_ts), before the division
     vec2 y;

@@ -38,7 +38,7 @@ TEST(FakePenumbra, WidthsAreTheLightsWithinTheirBounds) {
     EXPECT_FLOAT_EQ(glsl::gn_fake_distance(0, 0, 0.5F, 0, 8), 0);
 }
 
-/// gn_fake_point finds the point of the light that gn_extent_shift moved by.
+/// gn_fake_point finds the point of the light whose way on the map it is given.
 TEST(FakePenumbra, TheLightsPointIsFoundFromItsPlaceOnTheMap) {
     for (const char* name : kinds) {
         const Scene scene = load_scene(name);
@@ -53,7 +53,7 @@ TEST(FakePenumbra, TheLightsPointIsFoundFromItsPlaceOnTheMap) {
         const glsl::GnFakeAxes axes = glsl::gn_fake_axes(at, light);
         for (const vec2 q : {vec2(0.5F, 0.25F), vec2(-0.7F, 0.1F), vec2(0, -1)}) {
             const float spread = 0.8F;
-            const vec2 d_ts = glsl::gn_extent_shift(at, light, q, spread);
+            const vec2 d_ts = glsl::gn_extent_way(glsl::gn_extent_kernel(at, light, spread), q);
             const vec2 found = glsl::gn_fake_point(axes, d_ts);
             EXPECT_NEAR(found.x, spread * q.x, 1e-4) << name;
             EXPECT_NEAR(found.y, spread * q.y, 1e-4) << name;

@@ -216,10 +216,10 @@ TEST(Pcss, NarrowKernelsAreLengthenedWhicheverWayTheLightsAxesRun) {
     for (const float side : {-1.0F, 1.0F}) {
         const glsl::GnExtentLight half_light{side * vec3(0.5F, 0, 0), side * vec3(0, 0, 0.5F), true};
         for (const float spread : {0.0F, 1e-4F, 0.5F}) {
-            const glsl::GnExtentWiden widen =
-                glsl::gn_extent_widen(glsl::gn_extent_kernel(at, half_light, spread), 0, 0.01F);
-            const vec2 right = glsl::gn_extent_shift(at, half_light, vec2(1, 0), spread) + widen.right_ts;
-            const vec2 up = glsl::gn_extent_shift(at, half_light, vec2(0, 1), spread) + widen.up_ts;
+            const glsl::GnExtentKernel kernel = glsl::gn_extent_kernel(at, half_light, spread);
+            const glsl::GnExtentWiden widen = glsl::gn_extent_widen(kernel, 0, 0.01F);
+            const vec2 right = glsl::gn_extent_way(kernel, vec2(1, 0)) + widen.right_ts;
+            const vec2 up = glsl::gn_extent_way(kernel, vec2(0, 1)) + widen.up_ts;
             EXPECT_GE(glm::length(right), 0.01 - 1e-6) << spread;
             EXPECT_GE(glm::length(up), 0.01 - 1e-6) << spread;
         }
