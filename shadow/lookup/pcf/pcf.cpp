@@ -34,6 +34,14 @@ Guard guard(const Recipe& recipe, const Light&, const Box&) {
     return guard;
 }
 
+std::vector<std::string_view> needs_for(const Recipe& recipe) {
+    const auto& params = recipe.of<GnPcfParams>("pcf");
+    if (params.extremes == GN_PCF_NO_EXTREMES) {
+        return {"depth"};
+    }
+    return {"depth", params.extremes == GN_PCF_BLOCKS ? "block-min-max" : "min-max"};
+}
+
 /// The taps of a disc kernel on the unit disc, before it is turned.
 std::vector<vec2> disc_of(const GnPcfParams& params) {
     if (params.kernel != GN_PCF_VOGEL) {
@@ -52,6 +60,7 @@ std::string prologue(const Recipe& recipe) {
     const auto params = recipe.of<GnPcfParams>("pcf");
     std::string text = fmt::format("#define GN_PCF_KERNEL {}\n#define GN_PCF_OVER_PIXEL {}\n", params.kernel,
                                    params.footprint == GN_PCF_OF_PIXEL);
+    text += params.extremes == GN_PCF_NO_EXTREMES ? "" : "#define GN_PCF_EXTREMES\n";
     if (is_grid(params)) {
         const int size = glsl::gn_pcf_size(params.kernel, params.size);
         text += fmt::format("#define GN_PCF_SIZE {}\n", size);
@@ -91,6 +100,11 @@ ParamTable rows() {
                   "What a disc kernel's tap compares: the texel that it falls into, or the four around it, weighed "
                   "bilinearly, so that coarse texels do not show as steps within the kernel.",
                   "texel", "bilinear"),
+        GN_CHOICE(GnPcfParams, extremes,
+                  "Which least and greatest depths end a kernel early where they say that all of it is lit, or none: "
+                  "of single texels, or of blocks of 8 x 8, which are made in a fraction of the time and decide less. "
+                  "V stays the same, to the rounding of a grid's weights; pays for wide kernels.",
+                  "none", "texels", "blocks"),
     });
 }
 
@@ -108,6 +122,7 @@ const Part& lookup_pcf() {
         p.title = "Percentage-closer filtering";
         p.citation = "RSC87";
         p.needs = {"depth"};
+        p.needs_for = needs_for;
         p.optional = {"ids"};
         p.sides = {
             {"confidence", "", "How near the centre of its texel a sample lies: 1 at it, 0 at the texel's border."},

@@ -12,6 +12,7 @@
 #include "shadow/receiver/noise.glsl"
 #include "shadow/receiver/bilinear_tap.glsl"
 #include "shadow/receiver/confidence.glsl"
+#include "shadow/receiver/region_extremes.glsl"
 
 #ifdef __cplusplus
 namespace gn::glsl {
@@ -304,11 +305,14 @@ float gn_pcf_spiral(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcf
 }
 #endif
 
+// The radius of a disc kernel on the map.
+vec2 gn_pcf_radius(GnLookup at, GnPcfParams params) {
+    return params.radius_world > 0.0 ? gn_texels(at.projected, params.radius_world) * at.projected.texel_ts
+                                     : vec2(params.radius * at.projected.texel_ts);
+}
+
 float gn_pcf_discs(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
-    vec2 radius_ts = vec2(params.radius * at.projected.texel_ts);
-    if (params.radius_world > 0.0) {
-        radius_ts = gn_texels(at.projected, params.radius_world) * at.projected.texel_ts;
-    }
+    vec2 radius_ts = gn_pcf_radius(at, params);
     float angle = params.kernel == GN_PCF_POISSON ? 0.0 : gn_pcf_angle(at.receiver.p_ss);
     vec2 turn = vec2(cos(angle), sin(angle));
     int probes = min(GN_PCF_TAPS, 8);
@@ -336,9 +340,49 @@ float gn_pcf_discs(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfP
     return sum / float(GN_PCF_TAPS);
 }
 
-float gn_pcf_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {
+// Least and greatest depths, which may say at once what all taps would:
+//   #define GN_PCF_EXTREMES
+#ifdef GN_PCF_EXTREMES
+#define GN_PCF_MAPS sampler2DArray depth, sampler2DArray pyramid, sampler2DArray ids
+
+// How far from the receiver the kernel reads texels, on each side.
+vec2 gn_pcf_reach(GnLookup at, GnPcfParams params) {
+    vec2 right_ts = abs(gn_pcf_step(at.projected, at.receiver.ddx_ws));
+    vec2 below_ts = abs(gn_pcf_step(at.projected, at.receiver.ddy_ws));
+    if (params.kernel > GN_PCF_GAUSSIAN) {
+        float beside_ts = GN_PCF_TAP == GN_PCF_FOUR_TEXELS ? at.projected.texel_ts : 0.0;
+        return gn_pcf_radius(at, params) + beside_ts + (GN_PCF_OVER_PIXEL ? 0.5 * (right_ts + below_ts) : vec2(0.0));
+    }
+    vec2 side = vec2(gn_pcf_footprint(params.kernel, params.size));
+    if (GN_PCF_OVER_PIXEL) {
+        side = max(side, (right_ts + below_ts) / at.projected.texel_ts) + 2.0;
+    }
+    return (0.5 * side + 1.0) * at.projected.texel_ts;
+}
+
+// 1 where all that the kernel reads leaves the receiver's plane lit, 0 where all of it hides the plane, else -1. [AHH18] 7.6
+// What hides it may be the receiver's own object, which ids let through.
+float gn_pcf_agreed(GnLookup at, sampler2DArray pyramid, GnPcfParams params) {
+    float agreed = gn_region_extremes(at, pyramid, gn_pcf_reach(at, params)).y;
+#ifdef GN_CASTER_IDS
+    return agreed == 1.0 ? 1.0 : -1.0;
+#else
+    return agreed;
+#endif
+}
+#else
+#define GN_PCF_MAPS sampler2DArray depth, sampler2DArray ids
+#endif
+
+float gn_pcf_visibility(GnLookup at, GN_PCF_MAPS, GnPcfParams params) {
     params.kernel = GN_PCF_KERNEL;
     params.size = GN_PCF_SIZE;
+#ifdef GN_PCF_EXTREMES
+    float agreed = gn_pcf_agreed(at, pyramid, params);
+    if (agreed >= 0.0) {
+        return agreed;
+    }
+#endif
     if (params.kernel > GN_PCF_GAUSSIAN) {
         return gn_pcf_discs(at, depth, ids, params);
     }
@@ -347,8 +391,8 @@ float gn_pcf_visibility(GnLookup at, sampler2DArray depth, sampler2DArray ids, G
 }
 
 // How near the texel's centre lies, and how far around the sample casters change its V.
-float gn_pcf_confidence(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) { return gn_confidence(at.projected); }
-float gn_pcf_kernel_reach(GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) { return gn_kernel_reach(at.projected, at.bias); }
+float gn_pcf_confidence(GnLookup at, GN_PCF_MAPS, GnPcfParams params) { return gn_confidence(at.projected); }
+float gn_pcf_kernel_reach(GnLookup at, GN_PCF_MAPS, GnPcfParams params) { return gn_kernel_reach(at.projected, at.bias); }
 #endif
 
 #endif

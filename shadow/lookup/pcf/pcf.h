@@ -21,6 +21,10 @@
 #define GN_PCF_ONE_TEXEL 0
 #define GN_PCF_FOUR_TEXELS 1
 
+#define GN_PCF_NO_EXTREMES 0
+#define GN_PCF_TEXELS 1
+#define GN_PCF_BLOCKS 2
+
 struct GnPcfParams {
     int kernel GN_DEFAULT(GN_PCF_BILINEAR_NXN);
     int footprint GN_DEFAULT(GN_PCF_OF_KERNEL);
@@ -31,6 +35,7 @@ struct GnPcfParams {
     int early_out GN_DEFAULT(0);
     int seed GN_DEFAULT(1);
     int tap GN_DEFAULT(GN_PCF_ONE_TEXEL);
+    int extremes GN_DEFAULT(GN_PCF_NO_EXTREMES);
 };
 
 #endif

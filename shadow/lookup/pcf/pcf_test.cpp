@@ -484,5 +484,27 @@ TEST(PcfRendered, IdsNeedNoBiasOnAPlane) {
     }
 }
 
+/// What least and greatest depths of all that a kernel reads decide, its taps would have found. [AHH18] 7.6
+TEST(PcfRendered, ExtremesChangeNoSample) {
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    for (const char* kernel :
+         {"bilinear-nxn,pcf.size=7", "gaussian,pcf.size=3,casters=ids", "nxn,pcf.size=4,pcf.footprint=pixel",
+          "vogel,pcf.taps=32,pcf.radius=6", "rotated-poisson,pcf.radius_world=0.1,pcf.tap=bilinear",
+          "vogel,pcf.footprint=pixel,placement=cascades"}) {
+        const bool sun = std::string_view(kernel).find("cascades") != std::string_view::npos;
+        const bool ids = std::string_view(kernel).find("ids") != std::string_view::npos;
+        // The warehouse shadows itself, which ids do not count.
+        const char* const scene = sun ? "fence" : ids ? "warehouse-inside" : "contact:light=spot";
+        const std::string recipe = "pcf,resolution=256,pcf.kernel=" + std::string(kernel);
+        const auto without = test::compare(scene, recipe, size);
+        const auto with = test::compare(scene, recipe + (sun ? ",pcf.extremes=blocks" : ",pcf.extremes=texels"), size);
+        float most = 0;
+        for (std::size_t i = 0; i < with.visibility().values.size(); ++i) {
+            most = std::max(most, std::abs(with.visibility().values[i] - without.visibility().values[i]));
+        }
+        EXPECT_LT(most, 1e-6F) << scene << " " << kernel << ": more than the weights' rounding";
+    }
+}
+
 }  // namespace
 }  // namespace gn::pcf_test

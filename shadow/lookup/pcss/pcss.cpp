@@ -3,9 +3,10 @@
 //
 // Based on: Fernando. Percentage-Closer Soft Shadows. SIGGRAPH Sketches 2005. [Fer05]
 // Stands on: shadow/lookup/smrt (rays.glsl: a ray's way through a map)
-// Also here: pcss_tap.glsl (a texel of the map as its kernels read it)
+// Also here: pcss_kernel.glsl (where the taps lie on the light), pcss_tap.glsl (a texel of the map as its kernels read it)
 #include "shadow/lookup/pcss/pcss.h"
 
+#include "shadow/lookup/poisson.h"
 #include "shadow/lookup/smrt/smrt.h"
 #include "shadow/recipe/light_guard.h"
 #include "shadow/recipe/recipe.h"
@@ -18,9 +19,24 @@ Guard guard(const Recipe& recipe, const Light& light, const Box& bounds_ws) {
     return light_guard(light, bounds_ws, params.least + (params.tap == GN_PCSS_FOUR_TEXELS ? 1.0F : 0.0F));
 }
 
+/// Points on the unit disc for as many taps as search or filter take, the first few of them all over it.
+std::string set_of(const GnPcssParams& params) {
+    std::vector<vec2> points =
+        poisson_disc(std::max(params.search_taps, params.taps), static_cast<unsigned>(params.seed)).points;
+    spread(points);
+    std::string list;
+    for (const vec2 p : points) {
+        list += fmt::format("{}vec2({:.8f}, {:.8f})", list.empty() ? "" : ", ", p.x, p.y);
+    }
+    return fmt::format("#define GN_PCSS_SET {}\n#define GN_PCSS_SET_POINTS {}\n", list, points.size());
+}
+
 std::string prologue(const Recipe& recipe) {
     const auto& params = recipe.of<GnPcssParams>("pcss");
-    std::string lines = fmt::format("#define GN_PCSS_TAP {}\n", params.tap);
+    std::string lines = fmt::format("#define GN_PCSS_TAP {}\n#define GN_PCSS_KERNEL {}\n", params.tap, params.kernel);
+    if (params.kernel == GN_PCSS_POISSON || params.kernel == GN_PCSS_ROTATED_POISSON) {
+        lines += set_of(params);
+    }
     if (params.planes != 0) {
         lines += "#define GN_PCSS_PLANES\n";
     }
@@ -84,6 +100,12 @@ ParamTable rows() {
                   "What a tap of the filter compares: the texel that it falls into, or the four around it, weighed "
                   "bilinearly, so that coarse texels do not show as steps within penumbrae.",
                   "texel", "bilinear"),
+        GN_CHOICE(GnPcssParams, kernel,
+                  "Where search and filter look on the light, in its own shape: a spiral, turned by the noise; a "
+                  "Poisson set, as it is (bands) or turned (noise); the centres of a raster's cells (bands), of as "
+                  "many as fit into the taps.",
+                  "vogel", "poisson", "rotated-poisson", "grid"),
+        GN_PARAM(GnPcssParams, seed, integer, 0, 65535, "", "Another Poisson set; nothing else changes."),
     });
 }
 

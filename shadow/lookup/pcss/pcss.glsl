@@ -10,6 +10,7 @@
 #define GN_SHADOW_LOOKUP_PCSS_GLSL
 
 #include "shadow/lookup/pcss/pcss.h"
+#include "shadow/lookup/pcss/pcss_kernel.glsl"
 #include "shadow/lookup/pcss/pcss_tap.glsl"
 #include "shadow/receiver/bilinear_tap.glsl"
 #include "shadow/receiver/light_plane.glsl"
@@ -104,12 +105,13 @@ GnPcssFound gn_pcss_search(GnLookup at, sampler2DArray depth, GnExtentLight half
     GnPcssFound result = GnPcssFound(-1.0, region.receiver, region.receiver);
     GnExtentKernel kernel = gn_extent_kernel(at, half_light, region.spread);
     GnExtentWiden widen = gn_extent_widen(kernel, params.least * at.projected.texel_ts, 0.0);
-    GnExtentPoints points = gn_extent_points(half_light.square, params.search_taps, noise);
+    int taps = gn_pcss_count(GN_PCSS_KERNEL, params.search_taps);
+    GnPcssKernel points = gn_pcss_kernel(params, half_light.square, taps, noise);
     float sum = 0.0;
     float count = 0.0;
     float nearest = result.receiver;
-    for (int i = 0; i < params.search_taps; ++i) {
-        GnPcssTap tap = gn_pcss_tap(at, depth, metres, gn_extent_tap_ts(at, kernel, widen, gn_extent_next(points)));
+    for (int i = 0; i < taps; ++i) {
+        GnPcssTap tap = gn_pcss_tap(at, depth, metres, gn_extent_tap_ts(at, kernel, widen, gn_pcss_next(points)));
         if (!tap.lit) {
             sum += tap.distance;
             count += 1.0;
@@ -150,12 +152,12 @@ float gn_pcss_visibility(GnLookup at, GN_PCSS_MAPS, GnPcssParams params) {
     GnExtentWiden widen = gn_extent_widen(kernel, 0.0, least_ts);
     vec2 reach_ts = gn_extent_reach(kernel, half_light.square);
     float width = max(max(reach_ts.x, reach_ts.y), least_ts) / at.projected.texel_ts;
-    int taps = clamp(int(ceil(params.density * width)), min(4, params.taps), params.taps);
+    int taps = gn_pcss_count(GN_PCSS_KERNEL, clamp(int(ceil(params.density * width)), min(4, params.taps), params.taps));
     GnExtentMetres metres = gn_extent_metres_of(at);
-    GnExtentPoints points = gn_extent_points(half_light.square, taps, noise);
+    GnPcssKernel points = gn_pcss_kernel(params, half_light.square, taps, noise);
     float lit = 0.0;
     for (int i = 0; i < taps; ++i) {
-        lit += gn_pcss_lit(at, depth, metres, params, gn_extent_tap_ts(at, kernel, widen, gn_extent_next(points)));
+        lit += gn_pcss_lit(at, depth, metres, params, gn_extent_tap_ts(at, kernel, widen, gn_pcss_next(points)));
     }
     return lit / float(taps);
 }

@@ -17,6 +17,11 @@
 #define GN_PCSS_ONE_TEXEL 0
 #define GN_PCSS_FOUR_TEXELS 1
 
+#define GN_PCSS_VOGEL 0
+#define GN_PCSS_POISSON 1
+#define GN_PCSS_ROTATED_POISSON 2
+#define GN_PCSS_GRID 3
+
 struct GnPcssParams {
     int blocker GN_DEFAULT(GN_PCSS_AVERAGE);
     int search_taps GN_DEFAULT(16);
@@ -30,6 +35,8 @@ struct GnPcssParams {
     float caged GN_DEFAULT(3.0f);
     int noise GN_DEFAULT(GN_PCSS_OF_SURFACE);
     int tap GN_DEFAULT(GN_PCSS_ONE_TEXEL);
+    int kernel GN_DEFAULT(GN_PCSS_VOGEL);
+    int seed GN_DEFAULT(1);
 };
 
 #endif

@@ -98,7 +98,7 @@ float gn_vssm_agreed(GnLookup plane, GnLookup around, sampler2DArray pyramid, ve
     }
     ivec2 first = ivec2(floor(low_ts / projected.texel_ts));
     ivec2 last = max(ivec2(floor(min(high_ts, projected.bounds_ts.zw - 0.5 * projected.texel_ts) / projected.texel_ts)), first);
-    vec2 range = gn_extent_plane(plane, projected.uv_ts, half_ts + projected.texel_ts);
+    vec2 range = gn_plane_range(plane, projected.uv_ts, half_ts + projected.texel_ts);
     bvec2 beyond = gn_pyramid_beyond(pyramid, first, last, projected.layer, range);
     return !beyond.x ? 0.0 : beyond.y ? -1.0 : 1.0;
 }
