@@ -135,7 +135,9 @@ vec3 gn_sssm_visibility(GnLookup at, sampler2DArray depth, sampler2DArray pyrami
     }
     GnSssmSum sum = GnSssmSum(0.0, 0.0, 0.0);
     gn_sssm_row(at, depth, half_light, metres, region.receiver, region.spread, 0.0, true, params, sum);
-    return vec3(sum.hidden / sum.weight, gn_sssm_pack(sum.before / max(sum.hidden, 1.0e-6)), gn_sssm_pack(region.spread));
+    // What hides the light may lie on the receiver, where its spread is none: 0 says that nothing does.
+    float spread = max(region.spread, 1.0e-15);
+    return vec3(sum.hidden / sum.weight, gn_sssm_pack(sum.before / max(sum.hidden, 1.0e-6)), gn_sssm_pack(spread));
 }
 #elif defined(GN_SSSM_FILTER)
 // The row through the receiver of a kernel as wide as the penumbra, or all of it where rows lie closer than pixels. `spreads`: the
