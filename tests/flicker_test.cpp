@@ -164,5 +164,60 @@ TEST(FlickerRendered, ThePenumbrasNoiseStaysOnTheSurface) {
     EXPECT_LT(change_of(gpu, cameras, few), 0.7 * swims);
 }
 
+/// How much V of the points that frames share changes from each to the next, on the root mean square. A point's own V stays as
+/// it is, so that all of that is flicker, and nothing need be traced.
+double flicker_of(const Scene& scene, const std::vector<Camera>& cameras, const std::string& text, uint w, uint h) {
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    History history(test::device());
+    const Recipe recipe = load_recipe(text);
+    Flicker flicker;
+    CpuSamples before;
+    SignedError error_before;
+    for (const Camera& camera : cameras) {
+        FrameResult frame = render_frame(
+            test::device(), gpu, camera, recipe,
+            {.width = w, .height = h, .repeat = 0, .only_light = 0, .picture = false, .history = &history});
+        EXPECT_EQ(frame.refused.front(), "");
+        const std::vector<float>& found = frame.visibility.front().values;
+        std::vector<std::uint8_t> counted(found.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const vec4 p_ws = frame.samples.position_ws[i];
+            counted[i] =
+                p_ws.w > 0.5F && gn_counted(scene.lights[0].shape, vec3(p_ws), vec3(frame.samples.normal_ws[i]));
+        }
+        SignedError error =
+            signed_error(found, std::vector<float>(found.size()), counted, static_cast<int>(w), static_cast<int>(h));
+        if (!before.position_ws.empty()) {
+            const auto view = [&](const CpuSamples& samples) {
+                return view_of(samples, static_cast<int>(w), static_cast<int>(h));
+            };
+            flicker += flicker_between(error_before, error, same_points(view(before), view(frame.samples)));
+        }
+        before = std::move(frame.samples);
+        error_before = std::move(error);
+    }
+    EXPECT_GT(flicker.samples, 500U) << text;
+    return flicker.root_mean_square().value_or(NAN);
+}
+
+/// Penumbrae of a sun of a degree swim no more than twice as much as the edges of pcf's fixed kernel over the same maps.
+TEST(FlickerRendered, PenumbraeFlickerNoMoreThanTwiceAsMuchAsPcf) {
+    const test::ValidationGuard guard;
+    Scene scene = test::built_in("corridor");
+    scene.lights[0].shape.angular_radius = glm::radians(0.5F);
+    // Without GNOMON_THOROUGH a few steps of the walk and one of the recipes, in a smaller picture over smaller maps.
+    const std::vector<Camera>& all = scene.paths.at(0).frames;
+    const std::vector<Camera> path(all.begin(), test::thorough() ? all.end() : all.begin() + 4);
+    const std::string maps = test::thorough() ? ",resolution=2048" : ",resolution=1024";
+    const uint w = test::thorough() ? width : 480, h = test::thorough() ? height : 270;
+    const std::vector<std::pair<const char*, const char*>> recipes{{"pcss", "pcf,placement=auto"},
+                                                                   {"soft", "pcf,placement=cascades"}};
+    for (const auto& [recipe, pcf] : std::span(recipes).first(test::thorough() ? 2 : 1)) {
+        const double least = flicker_of(scene, path, pcf + maps, w, h);
+        EXPECT_LE(flicker_of(scene, path, recipe + maps, w, h), 2 * least) << recipe;
+        EXPECT_GT(least, 0.01) << recipe;
+    }
+}
+
 }  // namespace
 }  // namespace gn::flicker_test

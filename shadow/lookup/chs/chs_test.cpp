@@ -57,7 +57,8 @@ TEST(Chs, TexelsCoverTheKernelsArea) {
 }
 
 TEST(ChsRendered, WidthsAreTheLightsWhateverTheResolution) {
-    for (const char* scene : {"half-plane", "half-plane:light=spot", "half-plane:light=directional"}) {
+    for (const char* scene :
+         {"half-plane", "half-plane:light=spot", "half-plane:light=point", "half-plane:light=directional"}) {
         for (const int resolution : {256, 1024}) {
             const auto c =
                 test::compare(scene, fmt::format("chs,resolution={}", resolution), {.width = 64, .height = 48});

@@ -158,6 +158,32 @@ TEST(FakePenumbraRendered, ThePenumbraEndsAtTheRadius) {
     EXPECT_LT(off_ramp(test::compare("half-plane", recipe + "width-map", size), -reach, 0, 1.5 / 8), 0.01);
 }
 
+/// Floods count pixels: on the ground each is as large as its neighbour lies away.
+TEST(FakePenumbraRendered, AFloodsPenumbraEndsAtTheRadius) {
+    const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
+    constexpr double radius = 5;
+    for (const char* form : {"flood", "jump-flood"}) {
+        const auto c = test::compare(
+            "half-plane", fmt::format("fake-penumbra,fake-penumbra.radius={},fake-penumbra.form={}", radius, form),
+            size);
+        int beyond = 0, within = 0;
+        for (std::size_t i = 0; i + 1 < c.truth.counted.size(); ++i) {
+            const vec3 p_ws(c.frame.samples.position_ws[i]), beside_ws(c.frame.samples.position_ws[i + 1]);
+            if (i % size.width + 1 == size.width || c.truth.counted[i] == 0 || c.truth.counted[i + 1] == 0) {
+                continue;
+            }
+            // An edge lies within a pixel.
+            const double pixels =
+                std::abs(static_cast<double>(p_ws.x)) / static_cast<double>(glm::distance(p_ws, beside_ws));
+            const float v = c.visibility().values[i];
+            beyond += pixels > radius + 1 && v > 0 && v < 1 ? 1 : 0;
+            within += pixels < radius - 1 && v > 0 && v < 1 ? 1 : 0;
+        }
+        EXPECT_EQ(beyond, 0) << form;
+        EXPECT_GT(within, 300) << form;
+    }
+}
+
 TEST(FakePenumbraRendered, WithoutSizeTheShadowIsHard) {
     const test::ComparisonOptions size{.width = 96, .height = 72, .samples = 1};
     for (const char* form : {"radial", "width-map", "flood", "jump-flood"}) {
