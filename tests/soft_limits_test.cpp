@@ -95,8 +95,8 @@ TEST_P(SoftLimitsBare, ALampWithoutExtentIsAHardShadows) {
         if (!test::thorough() && lamp != GetParam().lamp) {
             continue;
         }
-        const std::vector<float> hard = values_of(scene, load_recipe(GetParam().hard + ",resolution=256"), lamp);
-        const std::vector<float> soft = values_of(scene, load_recipe(GetParam().soft + ",resolution=256"), lamp);
+        const std::vector<float> hard = values_of(scene, load_recipe(GetParam().hard + ",resolution=128"), lamp);
+        const std::vector<float> soft = values_of(scene, load_recipe(GetParam().soft + ",resolution=128"), lamp);
         EXPECT_GT(std::count(hard.begin(), hard.end(), 1.0F), 500);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < soft.size(); ++i) {
