@@ -191,7 +191,8 @@ ParamTable rows() {
             "centre; cost grows with them."),
         GN_CHOICE(GnBackprojectionParams, fusion,
                   "What several layers hide together: the union of their points; of each texel the farthest before the "
-                  "receiver alone; or the sum, the greatest, the mean or the product of what each hides.",
+                  "receiver alone; or the sum of what each hides, the greatest, the middle between both, or the "
+                  "product of what they leave.",
                   "union", "farthest", "sum", "max", "mean", "product"),
         GN_PARAM(GnBackprojectionParams, sparse, integer, 0, 4, "",
                  "Looks up samples of wide penumbrae only so many doublings of a pixel apart, and interpolates the "

@@ -12,6 +12,7 @@
 #include "shadow/lookup/backprojection/quads.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
 #include "shadow/lookup/backprojection/sparse.glsl"
+#include "shadow/receiver/fusion.glsl"
 
 #ifndef __cplusplus
 
@@ -116,15 +117,16 @@ float gn_back_hidden_at(GnLookup at, GN_BACK_MAPS, GnBackLight light, GnBackSear
                         GnBackprojectionParams params) {
     int turns = GN_BACK_FUSION == GN_BACK_FARTHEST ? 1 : GN_BACK_LAYERS;
     GnBackCover cover = gn_back_nothing();
-    GnBackFused fused = gn_back_unfused();
+    GnFused fused = gn_unfused();
     for (int i = 0; i < turns; ++i) {
         cover = gn_back_turn(cover, at, GN_BACK_THESE, light, search, GnBackTurn(level, i), params);
-        fused = gn_back_fuse(fused, gn_back_hidden(cover, GN_BACK_COMBINE == GN_BACK_BITMASK, light.disc));
+        fused = gn_fuse(fused, gn_back_hidden(cover, GN_BACK_COMBINE == GN_BACK_BITMASK, light.disc));
         if (GN_BACK_FUSION != GN_BACK_UNION) {
             cover = gn_back_nothing();
         }
     }
-    return gn_back_fused(fused, GN_BACK_FUSION);
+    // What a union has hidden after its last layer is the greatest.
+    return gn_fused(fused, GN_BACK_FUSION < GN_BACK_SUM ? GN_FUSION_MAX : GN_BACK_FUSION - GN_BACK_SUM);
 }
 #endif
 

@@ -6,10 +6,12 @@
 #include "shadow/lookup/backprojection/light_plane.glsl"
 #include "shadow/lookup/backprojection/search.glsl"
 #include "shadow/lookup/backprojection/sparse.glsl"
+#include "shadow/show/show.h"
 #include "tests/rig.h"
 #include "tests/warp_scene.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 #include <set>
@@ -268,13 +270,83 @@ TEST(BackprojectionRendered, ASlabsPenumbraIsTheProductOfItsRamps) {
     }
 }
 
-/// Two surfaces of which each hides half of the light.
-TEST(Backprojection, LayersFuseByTheRuleOfTheirName) {
-    const auto fused = glsl::gn_back_fuse(glsl::gn_back_fuse(glsl::gn_back_unfused(), 0.5F), 0.5F);
-    EXPECT_EQ(glsl::gn_back_fused(fused, GN_BACK_SUM), 1);
-    EXPECT_EQ(glsl::gn_back_fused(fused, GN_BACK_MAX), 0.5F);
-    EXPECT_EQ(glsl::gn_back_fused(fused, GN_BACK_MEAN), 0.5F);
-    EXPECT_EQ(glsl::gn_back_fused(fused, GN_BACK_PRODUCT), 0.75F);
+/// The mask needs no more of the occluders than that they cover what the texels do. Over the map's own texels, which 256 a side allow.
+TEST(BackprojectionRendered, ASlabIsTheSameByWhateverStandsForItsTexels) {
+    for (const char* occluder : {"micropatch", "microquad", "microtri", "microrect", "contour"}) {
+        const auto c = test::compare(
+            "slab",
+            fmt::format("backprojection,backprojection.occluder={},backprojection.budget=0,resolution=256", occluder),
+            {.width = 64, .height = 48, .samples = 1});
+        EXPECT_LE(rmse_where(c, [](dvec3 p) { return p.y < 0.1; }), 0.01) << occluder;
+        for (const float v : c.visibility().values) {
+            ASSERT_EQ(256 * v, std::round(256 * v)) << "of 256 points";
+        }
+    }
+}
+
+/// Edges between the middles of a window's sides: what they enclose is half of a window that two texels beside each other hide, an
+/// eighth at a corner, all but an eighth of three, and what two corners leave.
+TEST(Backprojection, OutlinesRunAroundWhatTheTexelsHide) {
+    const std::array<vec2, 4> sides{vec2(0.5F, 0), vec2(1, 0.5F), vec2(0.5F, 1), vec2(0, 0.5F)};
+    const auto hidden = [](int window, std::array<int, 4> bits) {
+        const int count = static_cast<int>(std::popcount(static_cast<unsigned>(window)));
+        const bool opposite = count == 2 && (window == bits[0] + bits[2] || window == bits[1] + bits[3]);
+        return opposite ? 0.75 : std::array<double, 5>{0, 0.125, 0.5, 0.875, 1}.at(static_cast<std::size_t>(count));
+    };
+    std::mt19937 random(5);
+    constexpr int n = 9;
+    for (int turn = 0; turn < 20; ++turn) {
+        std::array<std::array<int, n>, n> hides{};
+        for (int y = 1; y + 1 < n; ++y) {
+            for (int x = 1; x + 1 < n; ++x) {
+                hides.at(static_cast<std::size_t>(y)).at(static_cast<std::size_t>(x)) = static_cast<int>(random() % 2);
+            }
+        }
+        double enclosed = 0, expected = 0;
+        for (std::size_t y = 0; y + 1 < n; ++y) {
+            for (std::size_t x = 0; x + 1 < n; ++x) {
+                const int window = hides.at(y).at(x) + 2 * hides.at(y).at(x + 1) + 4 * hides.at(y + 1).at(x + 1) +
+                                   8 * hides.at(y + 1).at(x);
+                expected += hidden(window, {1, 2, 4, 8});
+                const uint segments = glsl::gn_back_segments(window);
+                for (uint i = 0; i < segments >> 8; ++i) {
+                    // Twice the signed area between the edge and the origin, what hides on the edge's left.
+                    const dvec2 from = dvec2(x, y) + dvec2(sides.at(segments >> (4 * i) & 3U));
+                    const dvec2 to = dvec2(x, y) + dvec2(sides.at(segments >> (4 * i + 2) & 3U));
+                    enclosed += 0.5 * (from.x * to.y - from.y * to.x);
+                }
+            }
+        }
+        EXPECT_NEAR(enclosed, expected, 1e-9);
+    }
+}
+
+/// Seen from the light the sides of a box are steps in depth, not holes: without walls light leaks through them.
+TEST(BackprojectionRendered, WallsCloseTheGapsBetweenPatches) {
+    const auto leak = [](const char* gaps) {
+        return *test::compare("contact:radius=5",
+                              fmt::format("backprojection,backprojection.occluder=micropatch,backprojection.budget=0,"
+                                          "resolution=128,backprojection.gaps={}",
+                                          gaps),
+                              {.width = 64, .height = 48, .samples = 64})
+                    .errors.leak;
+    };
+    EXPECT_LT(leak("true"), 0.3 * leak("false"));
+}
+
+/// Two sheets that touch as the map sees them, a metre apart: the light is seen between them from its sides. No early-out says that
+/// they hide all of it.
+TEST(BackprojectionRendered, GapsThatAreTooDeepStayOpen) {
+    const auto rmse = [](const char* settings) {
+        return *test::compare(
+                    "overlap:arrangement=opposite",
+                    fmt::format("backprojection,backprojection.budget=0,resolution=128,backprojection.{}", settings),
+                    {.width = 48, .height = 36, .samples = 256})
+                    .errors.rmse;
+    };
+    EXPECT_GT(rmse("gap_limit=0"), 0.06) << "closed";
+    EXPECT_LT(rmse("gap_limit=0.2"), 0.02) << "quads that span the gap are left out, a texel at each side of it";
+    EXPECT_LT(rmse("gap_limit=0.2,backprojection.occluder=micropatch"), 0.005);
 }
 
 /// A light of 1 m at 5 m, whose halves z < 0 of the view see two sheets at 3 m and 2 m over each other: two layers of the map.
@@ -289,7 +361,9 @@ TEST(BackprojectionRendered, OverlapsAreRightByPointsAndWrongByAreasAsPredicted)
           Case{"fusion=farthest", [](double, double b) { return b; }},
           Case{"fusion=sum,backprojection.combine=area", [](double a, double b) { return std::max(a + b - 1, 0.0); }},
           Case{"fusion=product", [](double a, double b) { return a * b; }},
-          Case{"fusion=mean", [](double a, double b) { return (a + b) / 2; }}}) {
+          Case{"fusion=max", [](double a, double b) { return std::min(a, b); }},
+          // eq. 1.5: the middle between the greatest that either hides and what both hide apart from each other.
+          Case{"fusion=mean", [](double a, double b) { return (std::min(a, b) + std::max(a + b - 1, 0.0)) / 2; }}}) {
         const auto c = test::compare(
             "overlap",
             fmt::format("backprojection,resolution=192,backprojection.layers=2,backprojection.{}", fusion.settings),
@@ -334,7 +408,57 @@ TEST(BackprojectionRendered, EarlyOutsAndNarrowerSearchesChangeNoSample) {
         for (const char* pyramid : {"pyramid=hsm", "pyramid=mssm", "pyramid=ysm", "early_out=false", "refine=0"}) {
             EXPECT_EQ(values(pyramid), all) << scene << ", " << pyramid;
         }
+        if (std::string_view(bias) == plane || std::string_view(scene) == "contact") {
+            continue;
+        }
+        // Patches with their walls leave no gap either; areas that overlap add up in another order.
+        const std::string walls = "occluder=micropatch,backprojection.";
+        EXPECT_EQ(values((walls + "pyramid=ysm").c_str()), values((walls + "pyramid=none").c_str())) << scene;
+        const std::string areas = "combine=area,backprojection.";
+        const auto by_area = values((areas + "pyramid=ysm").c_str()),
+                   in_full = values((areas + "pyramid=none").c_str());
+        for (std::size_t i = 0; i < by_area.size(); ++i) {
+            EXPECT_NEAR(by_area[i], in_full[i], 1e-4) << scene << ", areas, sample " << i;
+        }
     }
+}
+
+/// What a search tells of itself: classes say V, and a budget is kept by coarser levels.
+TEST(BackprojectionRendered, WhatASearchTellsOfItselfIsWhatItDid) {
+    const Scene& scene = test::built_in("slab");
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const auto told = [&](const char* settings) {
+        const Recipe recipe = load_recipe(fmt::format("backprojection,resolution=512,backprojection.{}", settings));
+        const std::vector<std::string> names{"search-class", "visited-texels", "level"};
+        const std::vector<Shown> shown =
+            show_hidden(test::device(), gpu, scene.camera(""), recipe, names, {.width = 64, .height = 48});
+        const FrameResult frame =
+            render_frame(test::device(), gpu, scene.camera(""), recipe,
+                         {.width = 64, .height = 48, .repeat = 0, .only_light = 0, .picture = false});
+        const std::vector<float>& v = frame.visibility.front().values;
+        std::array<int, 4> of{};
+        float most = 0, coarsest = 0;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const auto value = [&](std::size_t k) { return shown.at(k).values.values.at(2 * i); };
+            const auto why = static_cast<std::size_t>(value(0));
+            ++of.at(why);
+            EXPECT_TRUE(why != 1 || v[i] == 1) << i;
+            EXPECT_TRUE(why != 2 || v[i] == 0) << i;
+            EXPECT_EQ(why == 3, value(1) > 0) << i;
+            most = std::max(most, value(1));
+            coarsest = std::max(coarsest, value(2));
+        }
+        EXPECT_GT(of[1], 100) << "lit";
+        EXPECT_GT(of[2], 10) << "umbra";
+        EXPECT_GT(of[3], 100) << "read";
+        return vec2(most, coarsest);
+    };
+    const vec2 all = told("budget=0"), some = told("budget=144");
+    EXPECT_EQ(all.y, 0);
+    EXPECT_NEAR(some.y, 0.5F * std::log2(all.x / 144), 0.2F);
+    // The finer of two levels that are blended has up to four times as many, and cells at both ends of a side.
+    EXPECT_LT(some.x, 27 * 27);
+    EXPECT_GT(some.x, 144);
 }
 
 TEST(Backprojection, SamplesMoveApartAsPenumbraeWiden) {

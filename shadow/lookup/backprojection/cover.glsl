@@ -81,42 +81,6 @@ GN_FN float gn_back_hidden(GnBackCover cover, bool bitmask, bool disc) {
     return bitmask ? gn_back_share(cover.mask, disc) : clamp(abs(cover.area), 0.0f, 1.0f);
 }
 
-// What several layers hide, as shares of the light. The last of a union is all of it.
-struct GnBackFused {
-    float sum;
-    float most;
-    float left;  // the product of what each leaves
-    float count;
-};
-
-GN_FN GnBackFused gn_back_unfused() {
-    GnBackFused fused;
-    fused.sum = 0.0f;
-    fused.most = 0.0f;
-    fused.left = 1.0f;
-    fused.count = 0.0f;
-    return fused;
-}
-
-GN_FN GnBackFused gn_back_fuse(GnBackFused fused, float hidden) {
-    fused.sum += hidden;
-    fused.most = max(fused.most, hidden);
-    fused.left *= 1.0f - hidden;
-    fused.count += 1.0f;
-    return fused;
-}
-
-// The share that they hide together.
-GN_FN float gn_back_fused(GnBackFused fused, int fusion) {
-    if (fusion == GN_BACK_SUM) {
-        return min(fused.sum, 1.0f);
-    }
-    if (fusion == GN_BACK_MEAN) {
-        return fused.sum / fused.count;
-    }
-    return fusion == GN_BACK_PRODUCT ? 1.0f - fused.left : fused.most;
-}
-
 #ifdef __cplusplus
 }  // namespace gn::glsl
 #endif

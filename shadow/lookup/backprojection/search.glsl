@@ -107,8 +107,8 @@ GnBackSearch gn_back_within(GnBackSearch search, GnLookup at, vec4 area_ts, GnBa
     return search;
 }
 
-// Whether the range of depths that a rectangle of texels holds hides none of the light or all of it: 1, 0, else -1. A mean over
-// peeled surfaces is not what the first of them hides.
+// Whether the range of depths that a rectangle of texels holds hides none of the light or all of it: 1, 0, else -1. Steps that are too
+// deep to be closed are gaps through which the light may be seen.
 float gn_back_class(GnLookup at, GnBackRays rays, GnBackSearch search, vec2 range, GnBackprojectionParams params) {
     ivec4 texels = search.held;
     // The plane is flat between its corners; a cone lies below it, deepest at the corners.
@@ -124,8 +124,8 @@ float gn_back_class(GnLookup at, GnBackRays rays, GnBackSearch search, vec2 rang
         between = between && gn_back_between(rays, gn_back_point(rays, uv_ts, range.x)) &&
                   gn_back_between(rays, gn_back_point(rays, uv_ts, range.y));
     }
-    bool first_hides_all = GN_BACK_FUSION != GN_BACK_MEAN || GN_BACK_LAYERS < 2;
-    bool dark = first_hides_all && (search.whole || !gn_back_views_end) && between && nearest > range.y;
+    bool closed = params.gap_limit == 0.0 || (range.y - range.x) * at.projected.metres_per_depth <= params.gap_limit;
+    bool dark = closed && (search.whole || !gn_back_views_end) && between && nearest > range.y;
     return farthest <= range.x ? 1.0 : dark ? 0.0 : -1.0;
 }
 
