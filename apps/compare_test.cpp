@@ -150,7 +150,7 @@ TEST(Compare, APathFillsFlicker) {
                                              "-r", "perceptual,resolution=512", "--size", "160x90", "--samples", "1",
                                              "--repeat", "1", "--json", file});
     ASSERT_EQ(walked.status, 0) << walked.err;
-    expect_has(walked.out, {"flicker"});
+    expect_has(walked.out, {"flicker", "path rmse"});
     const json document = json::parse(file_text(file));
     expect_valid(document);
     // A map fitted to the view flickers as the view moves; no shadow at all cannot.
@@ -170,6 +170,42 @@ TEST(Compare, APathFillsFlicker) {
             EXPECT_LE(std::abs(texels - before), std::max(8.0, 0.25 * before)) << k;
         }
     }
+}
+
+TEST(Compare, TheErrorAlongAPathIsThatOfAllItsFrames) {
+    // Two frames that are views as well, of unlike errors: their samples count alike.
+    const ScratchFolder folder;
+    folder.write("wall.obj",
+                 "v -5 0 -5\nv -5 0 5\nv 5 0 5\nv 5 0 -5\nv 1 0 -2\nv 1 0 2\nv 1 1 2\nv 1 1 -2\n"
+                 "f 1 2 3 4\nf 5 6 7 8\n");
+    const std::string high = "position = [0, 9, 0.1]\nlook_at = [0, 0, 0]\n";
+    const std::string low = "position = [4, 3, 0.1]\nlook_at = [2, 0, 0]\n";
+    folder.write("wall.toml", "[[file]]\npath = 'wall.obj'\n[[camera]]\nname = 'high'\n" + high +
+                                  "[[camera]]\nname = 'low'\n" + low +
+                                  "[[light]]\nkind = 'point'\nposition = [0, 2, 0]\nintensity = 100\n"
+                                  "[[path]]\nname = 'both'\n[[path.key]]\n" +
+                                  high + "[[path.key]]\nframe = 1\n" + low);
+    const auto measured = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command{"compare", folder / "wall.toml", "-r", "hard,resolution=16", "--json", "-"};
+        command.insert(command.end(), more.begin(), more.end());
+        const CommandResult result = run_gnomon(small(command));
+        EXPECT_EQ(result.status, 0) << result.err;
+        return json::parse(result.out).at("runs").at(0);
+    };
+    double samples = 0;
+    double squares = 0;
+    std::vector<double> alone;
+    for (const char* view : {"high", "low"}) {
+        const json run = measured({"--view", view});
+        EXPECT_TRUE(run.at("error").at("path_rmse").is_null());
+        alone.push_back(run.at("error").at("rmse"));
+        samples += run.at("samples").get<double>();
+        squares += run.at("samples").get<double>() * alone.back() * alone.back();
+    }
+    const json along = measured({"--path", "both"});
+    EXPECT_NEAR(along.at("error").at("path_rmse").get<double>(), std::sqrt(squares / samples), 1e-6);
+    EXPECT_EQ(along.at("lights").at(0).at("error").at("path_rmse"), along.at("error").at("path_rmse"));
+    EXPECT_GT(std::abs(alone[0] - alone[1]), 0.01) << "one frame for both would be seen";
 }
 
 TEST(Compare, AgainstAnotherRecipeIsADistanceOfItsOwn) {

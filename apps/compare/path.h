@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flicker of one recipe along a camera path.
+// Flicker and error of one recipe along a camera path.
 #pragma once
 
 #include "apps/compare/measure.h"
@@ -7,7 +7,7 @@
 namespace gn {
 
 /// Draws every frame of the view's path, one after the other with one history as a game does, and holds T - R of each
-/// against that of the frame before. Fills `flicker` of the run and of its lights that were served.
+/// against that of the frame before. Fills `flicker` and `path_rmse` of the run and of its lights that were served.
 void measure_path(RunResult& run, ViewSession& view, Bench& bench, const PreparedRecipe& recipe);
 
 }  // namespace gn

@@ -85,14 +85,14 @@ void write_report(const fs::path& folder, const Comparison& comparison) {
 std::string summary_table(const Comparison& comparison) {
     std::vector<std::string> header{"scene", "recipe",   "status", "rmse",      "mismatch", "leak",
                                     "acne",  "penumbra", "flip",   "shadow ms", "frame ms", "memory"};
-    // A column for flicker only where a path was followed.
+    // Columns for flicker and the error along the path only where a path was followed.
     const bool path = std::any_of(comparison.runs.begin(), comparison.runs.end(),
                                   [](const RunResult& run) { return !run.path.empty(); });
     if (path) {
-        header.insert(header.begin() + 9, "flicker");
+        header.insert(header.begin() + 9, {"flicker", "path rmse"});
     }
     // Likewise for what another recipe was held against.
-    const std::ptrdiff_t against = !comparison.against.empty() ? (path ? 10 : 9) : 0;
+    const std::ptrdiff_t against = !comparison.against.empty() ? (path ? 11 : 9) : 0;
     if (against > 0) {
         header.insert(header.begin() + against, "against");
     }
@@ -104,7 +104,7 @@ std::string summary_table(const Comparison& comparison) {
                         figure(e.penumbra), figure(e.flip), milliseconds(run.shadow.median),
                         milliseconds(run.frame.median), run.status == Status::ok ? human_bytes(run.bytes) : "-"});
         if (path) {
-            rows.back().insert(rows.back().begin() + 9, figure(e.flicker));
+            rows.back().insert(rows.back().begin() + 9, {figure(e.flicker), figure(e.path_rmse)});
         }
         if (against > 0) {
             rows.back().insert(rows.back().begin() + against, figure(e.against));

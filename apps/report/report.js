@@ -90,7 +90,7 @@ function sortableTable(caption, columns, rows, groupOf = () => '') {
 }
 
 // Flicker needs a camera path, and 'against' a recipe to be held against; without them they have no column.
-const asked = {flicker: data.runs.some(run => run.path), against: data.against, against_mean: data.against};
+const asked = {flicker: data.runs.some(run => run.path), path_rmse: data.runs.some(run => run.path), against: data.against, against_mean: data.against};
 const metrics = data.metrics.filter(metric => !(metric.name in asked) || asked[metric.name]);
 const metricColumns = of => metrics.map(metric => ({
   title: metric.name, hint: metric.sentence, best: !['edge', 'against_mean'].includes(metric.name),

@@ -103,7 +103,7 @@ WeightedErrors pool_weighted(std::span<const Errors> lights) {
 }  // namespace
 
 std::span<const MetricInfo> all_metrics() {
-    static constexpr std::array<MetricInfo, 16> metrics{{
+    static constexpr std::array<MetricInfo, 17> metrics{{
         {"rmse", "Root mean square of T - R.", &Errors::rmse},
         {"mae", "Mean of the absolute T - R.", &Errors::mae},
         {"max", "Largest absolute T - R.", &Errors::max},
@@ -121,6 +121,7 @@ std::span<const MetricInfo> all_metrics() {
         {"luma_rms", "Root mean square difference of the pictures' luma, on the scale of 0 to 255.", &Errors::luma_rms},
         {"flip", "Mean FLIP of the pictures: the difference an observer sees when they alternate.", &Errors::flip},
         {"flicker", "Root mean square change of T - R between frames at reprojected samples.", &Errors::flicker},
+        {"path_rmse", "Root mean square of T - R over all frames of the camera path.", &Errors::path_rmse},
         {"against", "Root mean square of T - A, A: the visibility of the recipe that --against names.",
          &Errors::against},
         {"against_mean", "Mean of T - A; above 0 the recipe lets more light through than that of --against.",

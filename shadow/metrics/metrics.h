@@ -28,7 +28,7 @@ std::span<const WeightedInfo> weighted_metrics();
 struct Errors {
     std::size_t samples = 0;
     std::optional<double> rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, undersampled,
-        undersampling, luma_rms, flip, flicker, against, against_mean;
+        undersampling, luma_rms, flip, flicker, path_rmse, against, against_mean;
     std::size_t dark = 0, lit = 0,
                 partial = 0;  ///< samples with R = 0, R = 1, 0 < R < 1: the weights of leak, acne, penumbra
     WeightedErrors weighted;
@@ -39,7 +39,7 @@ struct MetricInfo {
     std::optional<double> Errors::*value;
 };
 /// In the order of the report: rmse, mae, max, mismatch, leak, acne, self_shadow, penumbra, edge, undersampled,
-/// undersampling, luma_rms, flip, flicker, against, against_mean.
+/// undersampling, luma_rms, flip, flicker, path_rmse, against, against_mean.
 std::span<const MetricInfo> all_metrics();
 
 /// The visibility metrics (rmse .. edge) of width x height images; `counted` has one byte a pixel. A T that is not a

@@ -112,7 +112,7 @@ TEST(Metrics, NamesAreInOrder) {
     }
     EXPECT_EQ(names, (std::vector<std::string_view>{"rmse", "mae", "max", "mismatch", "leak", "acne", "self_shadow",
                                                     "penumbra", "edge", "undersampled", "undersampling", "luma_rms",
-                                                    "flip", "flicker", "against", "against_mean"}));
+                                                    "flip", "flicker", "path_rmse", "against", "against_mean"}));
 }
 
 TEST(Metrics, PoolingIsAsIfTheSamplesWereOneList) {
