@@ -196,7 +196,8 @@ ParamTable rows() {
                  "How much longer than its mean side a texel counts where light grazes a surface: more is sharper "
                  "there and takes pages from everything else."),
         GN_PARAM(GnVirtualParams, drawn, integer, 0, 65536, "pages",
-                 "Most pages that a frame draws; others are there later, and coarser ones serve till then. 0: all."),
+                 "Most pages that a frame draws; others are there later, and coarser ones serve till then. Pages that "
+                 "show a whole face (one, or six around a lamp) come first and are drawn whatever the limit. 0: all."),
         GN_PARAM(
             GnVirtualParams, jitter, real, 0, 1, "texels",
             "Moves all pages from frame to frame of a sequence within so many of their texels: visibility=temporal "

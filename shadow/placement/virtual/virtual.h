@@ -10,7 +10,7 @@
 
 #define GN_VIRTUAL_MOST_LEVELS 12
 #define GN_VIRTUAL_SIDE 64       // pages of a level's window along a side; a power of two
-#define GN_VIRTUAL_LISTED 16384  // pages that samples can ask for
+#define GN_VIRTUAL_WALKERS 4096  // invocations that walk the list of what samples ask for
 
 struct GnVirtualParams {
     int page GN_DEFAULT(GN_VIRTUAL_128);

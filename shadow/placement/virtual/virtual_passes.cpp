@@ -16,9 +16,8 @@ namespace gn::virtual_pages {
 namespace {
 
 // The list of what samples ask for: of each page slot and tag, once. counts[c]: how many pages there are if all are c quarters of a
-// level coarser.
-constexpr const char* demand_text =
-    "uint listed; uint counts[4 * GN_VIRTUAL_MOST_LEVELS]; uvec2 entries[GN_VIRTUAL_LISTED];";
+// level coarser. A slot is listed once at most, so that PageJob::most_listed entries hold all.
+constexpr const char* demand_text = "uint listed; uint counts[4 * GN_VIRTUAL_MOST_LEVELS]; uvec2 entries[];";
 
 constexpr const char* head_text = R"(
 // Work: flags, victims, drawn, slots + 1 and tags of each page of the pool, the rows of slots, totals.
@@ -75,10 +74,7 @@ void mark(int level, int face, ivec2 page, uint mask) {
         uint known = marks[slot];
         known = known == 0u ? atomicCompSwap(marks[slot], 0u, tag) : known;
         if (known == 0u) {
-            uint i = atomicAdd(listed, 1u);
-            if (i < uint(GN_VIRTUAL_LISTED)) {
-                entries[i] = uvec2(uint(slot), tag);
-            }
+            entries[atomicAdd(listed, 1u)] = uvec2(uint(slot), tag);
         }
         if (known == 0u || known == tag) {
             if ((masks[slot] & mask) != mask) {
@@ -130,11 +126,7 @@ void main() {
 constexpr const char* count_text = R"(
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { int by; };
-void main() {
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= min(listed, uint(GN_VIRTUAL_LISTED))) {
-        return;
-    }
+void count_entry(uint i) {
     int slot;
     uint tag;
     if (!coarsened(entries[i], by, slot, tag)) {
@@ -152,18 +144,22 @@ void main() {
         known = before;
     }
 }
+void main() {
+    for (uint i = gl_GlobalInvocationID.x; i < listed; i += uint(GN_VIRTUAL_WALKERS)) {
+        count_entry(i);
+    }
+}
 )";
 
 // Enters the pages that are wanted into the table.
 constexpr const char* want_text = R"(
 layout(local_size_x = 64) in;
 void main() {
-    uint i = gl_GlobalInvocationID.x;
     int by = coarser_by();
-    if (i == 0u) {
+    if (gl_GlobalInvocationID.x == 0u) {
         table[2 * gn_virtual_slot(u.data.faces, u.data.levels, 0, ivec2(0))] = uint(by);
     }
-    if (i < min(listed, uint(GN_VIRTUAL_LISTED))) {
+    for (uint i = gl_GlobalInvocationID.x; i < listed; i += uint(GN_VIRTUAL_WALKERS)) {
         int slot;
         uint tag;
         if (coarsened(entries[i], by, slot, tag)) {
@@ -195,7 +191,8 @@ void main() {
 }
 )";
 
-// Which places are given away, those unused for longest first, and in which order stale pages are drawn, coarse ones first.
+// Which places are given away, those unused for longest first, and in which order stale pages are drawn, coarse ones first: those of
+// level 0 whatever the budget, for nothing else shows their face. The budget keeps room for those of them that have no place yet.
 constexpr const char* rank_text = R"(
 layout(local_size_x = 64) in;
 void main() {
@@ -216,7 +213,11 @@ void main() {
         for (int k = 0; k < u.pages; ++k) {
             rank += (GN_FLAG(k) & stale) != 0u && GN_SLOT(k) < GN_SLOT(i) ? 1 : 0;
         }
-        if (rank < u.budget) {
+        int first = 0;
+        for (int face = 0; face < u.data.faces; ++face) {
+            first += table[2 * gn_virtual_slot(u.data.faces, 0, face, ivec2(0)) + 1] == 0u ? 1 : 0;
+        }
+        if (rank < u.budget - first || gn_virtual_level(u.data.faces, int(GN_SLOT(i)) - 1) == 0) {
             GN_DRAWN(rank) = uint(i);
             atomicAdd(GN_MOVED, 1u);
         } else {
@@ -247,16 +248,18 @@ constexpr const char* sum_text = R"(
 layout(local_size_x = 1) in;
 void main() {
     uint sum = 0u;
+    uint whole = 0u;  // of level 0
     for (int row = 0; row < u.rows; ++row) {
         uint missing = GN_ROW(row);
         GN_ROW(row) = sum;
         sum += missing;
+        whole = row < u.data.faces * GN_VIRTUAL_SIDE ? sum : whole;
     }
     uint places = 0u;
     for (int i = 0; i < u.pages; ++i) {
         places += GN_FLAG(i) == 0u ? 1u : 0u;
     }
-    GN_NEW = min(min(sum, places), uint(u.budget) - GN_MOVED);
+    GN_NEW = min(min(sum, places), max(uint(max(u.budget - int(GN_MOVED), 0)), whole));
     count = GN_MOVED + GN_NEW;
 }
 )";
@@ -350,7 +353,7 @@ Buffers create_buffers(FrameGraph& graph, const PageJob& job) {
     b.marks = words("page marks", slots);
     b.masks = words("page masks", slots);
     b.seen = words("page counts", slots);
-    b.demand = words("page demand", 1 + 4 * GN_VIRTUAL_MOST_LEVELS + 2 * GN_VIRTUAL_LISTED);
+    b.demand = words("page demand", 2 + 4 * GN_VIRTUAL_MOST_LEVELS + 2 * job.most_listed());
     b.work = words("page work", 5 * pages + b.rows + 2);
     add_zeros(graph, "pages clear", {b.pages.table, b.pages.count, b.marks, b.masks, b.seen, b.demand, b.work});
     return b;
@@ -419,9 +422,9 @@ std::vector<Step> steps_of(const PageJob& job, std::uint32_t rows) {
     const auto pages = static_cast<std::uint32_t>(job.pages());
     std::vector<Step> steps;
     for (int by = 0; by < 4 * job.data.levels; ++by) {
-        steps.push_back({count_text, GN_VIRTUAL_LISTED, by});
+        steps.push_back({count_text, GN_VIRTUAL_WALKERS, by});
     }
-    steps.insert(steps.end(), {{want_text, GN_VIRTUAL_LISTED},
+    steps.insert(steps.end(), {{want_text, GN_VIRTUAL_WALKERS},
                                {hold_text, pages},
                                {rank_text, pages},
                                {rows_text, rows},

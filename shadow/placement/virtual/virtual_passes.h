@@ -5,6 +5,8 @@
 #include "shadow/placement/virtual/virtual.h"
 #include "shadow/placement/virtual/virtual_grid.h"
 
+#include <algorithm>
+
 namespace gn::virtual_pages {
 
 /// What the passes are told.
@@ -23,6 +25,15 @@ struct PageJob {
     TextureHandle before, now;  ///< R32_UINT, a column a page: slot + 1 (0: none), tag, frame of the latest use
     [[nodiscard]] int pages() const { return along * along; }
     [[nodiscard]] int slots() const { return data.levels * data.faces * GN_VIRTUAL_SIDE * GN_VIRTUAL_SIDE; }
+    /// Slots that pages can take: of a level as many as it has pages, or its window where that is smaller.
+    [[nodiscard]] std::uint32_t most_listed() const {
+        std::uint32_t of_face = 0;
+        for (int level = 0; level < data.levels; ++level) {
+            const auto side = static_cast<std::uint32_t>(std::min(1 << level, GN_VIRTUAL_SIDE));
+            of_face += side * side;
+        }
+        return of_face * static_cast<std::uint32_t>(data.faces);
+    }
 };
 
 /// What they give: buffers.

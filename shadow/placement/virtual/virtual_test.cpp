@@ -3,6 +3,7 @@
 #include "shadow/placement/virtual/virtual.glsl"
 
 #include "shadow/frame/history.h"
+#include "shadow/placement/virtual/virtual_passes.h"
 #include "shadow/scene/move.h"
 #include "shadow/show/show.h"
 #include "tests/direct_scenes.h"
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <set>
 
 namespace gn::virtual_test {
@@ -33,6 +35,25 @@ TEST(Virtual, PagesHavePlacesOfTheirOwn) {
                 EXPECT_EQ(glsl::gn_virtual_face(6, slot), face);
                 EXPECT_EQ(glsl::gn_virtual_slot(6, level, face, page + GN_VIRTUAL_SIDE), slot) << "windows wrap around";
             }
+        }
+    }
+}
+
+/// The list of what samples ask for has an entry for every place that pages can take, and no more.
+TEST(Virtual, EveryPlaceThatPagesTakeCanBeListed) {
+    for (const int faces : {1, 6}) {
+        virtual_pages::PageJob job;
+        job.data.faces = faces;
+        std::set<int> slots;
+        for (int level = 0; level < 8; ++level) {
+            for (int face = 0; face < faces; ++face) {
+                for (int i = 0; i < 1 << (2 * level); ++i) {
+                    const ivec2 page(i & ((1 << level) - 1), i >> level);
+                    slots.insert(glsl::gn_virtual_slot(faces, level, face, page));
+                }
+            }
+            job.data.levels = level + 1;
+            EXPECT_EQ(job.most_listed(), slots.size()) << faces << " faces, " << job.data.levels << " levels";
         }
     }
 }
@@ -102,9 +123,12 @@ struct Sequence {
     SceneGpu& gpu;
     History history{test::device()};
     PreparedRecipe recipe;
-    Sequence(SceneGpu& scene, const std::string& text) : gpu(scene), recipe(test::device(), load_recipe(text)) {}
+    std::string pages;  ///< what the history calls those of light 0
+    FrameResult frame;  ///< the latest
+    Sequence(SceneGpu& scene, const std::string& text)
+        : gpu(scene), recipe(test::device(), load_recipe(text)), pages("pages of light 0 " + load_recipe(text).name) {}
     std::vector<float> draw(const Camera& camera) {
-        const FrameResult frame =
+        frame =
             render_frame(gpu, camera, recipe,
                          {.width = width, .height = height, .only_light = 0, .picture = false, .history = &history});
         EXPECT_EQ(frame.refused.front(), "");
@@ -113,6 +137,47 @@ struct Sequence {
     std::vector<float> draw() { return draw(gpu.scene->cameras.front()); }
     [[nodiscard]] std::uint32_t drawn() { return *history.answered("pages drawn of light 0"); }
 };
+
+/// Slots and tags of the pages in a pool of so many that the latest frame showed.
+using ShownPages = std::set<std::pair<int, uint>>;
+ShownPages shown_pages(Sequence& frames, uint pool) {
+    ShownPages shown;
+    Texture2D* const texture = frames.history
+                                   .pair({.name = frames.pages,
+                                          .format = VK_FORMAT_R32_UINT,
+                                          .width = pool,
+                                          .height = 3,
+                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT})
+                                   .before;
+    if (texture == nullptr) {
+        ADD_FAILURE() << "no frame left " << frames.pages;
+        return shown;
+    }
+    const std::vector<std::byte> bytes = download(test::device(), *texture);
+    std::vector<uint> rows(bytes.size() / sizeof(uint));
+    std::memcpy(rows.data(), bytes.data(), bytes.size());
+    for (uint i = 0; i < pool; ++i) {
+        if (rows[i] != 0 && rows[2 * pool + i] == frames.history.frame()) {
+            shown.emplace(static_cast<int>(rows[i]) - 1, rows[pool + i]);
+        }
+    }
+    return shown;
+}
+
+/// Whether a box lies on a view of so many texels a side, or on a texel beside it.
+bool lies_on(const Box& box_ws, const GnLightView& view, float side) {
+    vec2 low(1e30F), high(-1e30F);
+    for (const vec3& corner_ws : box_ws.corners()) {
+        const vec4 p_cs = view.cs_from_ws * vec4(corner_ws, 1);
+        if (p_cs.w <= 0) {
+            return false;  // no box of these tests is both before and behind the light
+        }
+        low = glm::min(low, vec2(p_cs) / p_cs.w);
+        high = glm::max(high, vec2(p_cs) / p_cs.w);
+    }
+    const float rim = 1 + 2 / side;
+    return low.x <= rim && low.y <= rim && high.x >= -rim && high.y >= -rim;
+}
 
 /// A large box and a small one far from it, which stands where few pages look.
 Scene two_boxes(const GnLight& light) {
@@ -150,11 +215,30 @@ TEST_P(PagesRendered, AreDrawnWhereACasterMovedAndNowhereElse) {
         EXPECT_EQ(frames.draw(), first);
         EXPECT_EQ(frames.drawn(), 0U) << "frame " << k;
     }
+    const ShownPages before = shown_pages(frames, 256);
+    EXPECT_EQ(before.size(), all);
+    const Box was_ws = scene.objects[2].bounds_ws;
     move_object(scene, 2, glm::translate(mat4(1), vec3(0.3F, 0, -0.4F)));
     refresh_scene(test::device(), gpu);
     const std::vector<float> moved = frames.draw();
-    EXPECT_GT(frames.drawn(), 0U);
-    EXPECT_LT(frames.drawn(), all / 2) << "of " << all;
+    const std::uint32_t drawn = frames.drawn();
+    EXPECT_LT(drawn, all / 2) << "of " << all;
+    // Drawn are those on which the box lay or lies, and what samples on the box itself ask for that none asked for before.
+    const auto* const grid = frames.history.before<virtual_pages::Grid>(frames.pages);
+    ASSERT_NE(grid, nullptr);
+    const auto faces = static_cast<int>(grid->faces.size());
+    std::size_t touched = 0, seen_first = 0;
+    for (const auto& [slot, tag] : shown_pages(frames, 256)) {
+        const GnLightView view =
+            glsl::gn_virtual_view(grid->faces[static_cast<std::size_t>(glsl::gn_virtual_face(faces, slot))],
+                                  glsl::gn_virtual_level(faces, slot), glsl::gn_virtual_page(tag), 64, 2, vec2(0));
+        const bool lies = lies_on(was_ws, view, 64) || lies_on(scene.objects[2].bounds_ws, view, 64);
+        const bool is_new = before.count({slot, tag}) == 0;
+        touched += lies && !is_new ? 1 : 0;
+        seen_first += is_new ? 1 : 0;
+    }
+    EXPECT_GT(touched, 0U);
+    EXPECT_EQ(drawn, touched + seen_first) << touched << " touched of " << all << ", " << seen_first << " seen first";
     EXPECT_EQ(frames.draw(), moved);
     EXPECT_EQ(frames.drawn(), 0U);
     // A sequence that begins now knows nothing of before. Its pages stand elsewhere in the pool, where positions round otherwise.
@@ -216,6 +300,37 @@ TEST(VirtualRendered, AMissingPageIsNeverLight) {
             }
         }
         EXPECT_GT(deep, 20U);
+    }
+}
+
+/// One page a frame for a lamp that has six faces, at first and when a caster beside the lamp moves, which lies on most of them: pages of
+/// level 0 are all drawn, V is to the bit what they alone give, and no sample that the light does not reach is light for want of a page:
+/// beyond those that are where all pages are drawn, none but along silhouettes, which texels of level 0 move by about a pixel.
+TEST(VirtualRendered, AMissingFaceIsNeverLight) {
+    const test::ValidationGuard guard;
+    Scene scene = two_boxes(by_hand::point({0, 2, 0.5F}));
+    SceneGpu gpu = upload_scene(test::device(), scene);
+    const std::string text = "virtual,lookup=hard,virtual.page=64,resolution=1024";
+    Sequence all(gpu, text), few(gpu, text + ",virtual.drawn=1"), coarse(gpu, text + ",virtual.levels=1");
+    for (const bool moved : {false, true}) {
+        if (moved) {
+            move_object(scene, 1, glm::translate(mat4(1), vec3(0.2F, 0, 0.1F)));
+            refresh_scene(test::device(), gpu);
+        }
+        const std::vector<float> v = few.draw(), v_all = all.draw(), v_coarse = coarse.draw();
+        EXPECT_EQ(few.drawn(), coarse.drawn());
+        EXPECT_GT(few.drawn(), 2U) << "faces that one page a frame does not serve";
+        EXPECT_EQ(v, v_coarse);
+        const TruthResult truth = Truth(scene).trace(all.frame.samples.position_ws, all.frame.samples.normal_ws,
+                                                     scene.lights.front(), {.samples = 1});
+        int deep = 0, light = 0, light_all = 0;
+        for (const std::size_t i : deep_in_shadow(truth.visibility)) {
+            deep += truth.counted[i] != 0 ? 1 : 0;
+            light += truth.counted[i] != 0 && v[i] > 0 ? 1 : 0;
+            light_all += truth.counted[i] != 0 && v_all[i] > 0 ? 1 : 0;
+        }
+        EXPECT_GT(deep, 100);
+        EXPECT_LE(light, light_all) << "of " << deep;
     }
 }
 
