@@ -7,6 +7,7 @@
 #include "shadow/scene/move.h"
 #include "tests/direct_scenes.h"
 #include "tests/rig.h"
+#include "tests/thorough.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -85,6 +86,7 @@ TruthResult truth_of(const Scene& scene, const CpuSamples& samples) {
 /// Of the recipe alone the least over all frames, and of what was gathered over them.
 struct Figures {
     double least = 1e9, gathered = 0;
+    std::vector<double> of_one, of_all;  ///< of each frame
 };
 Figures after_frames(Scene& scene, const std::string& recipe, int frames, std::optional<double> Errors::*figure) {
     SceneGpu gpu = upload_scene(test::device(), scene);
@@ -102,8 +104,10 @@ Figures after_frames(Scene& scene, const std::string& recipe, int frames, std::o
             return *(visibility_errors(frame.visibility[0].values, truth->visibility, truth->counted, width, height).*
                      figure);
         };
-        figures.least = std::min(figures.least, of(one));
-        figures.gathered = of(all);
+        figures.of_one.push_back(of(one));
+        figures.of_all.push_back(of(all));
+        figures.least = std::min(figures.least, figures.of_one.back());
+        figures.gathered = figures.of_all.back();
     }
     return figures;
 }
@@ -124,6 +128,11 @@ TEST(TemporalRendered, AStillViewConvergesToTheTracedShadow) {
     const Figures hard = after_frames(scene, "hard,placement=jittered,resolution=64", 64, &Errors::mismatch);
     EXPECT_GT(hard.least, 0.005);
     EXPECT_LE(5 * hard.gathered, hard.least) << "mismatch " << hard.gathered << " of " << hard.least;
+    if (test::thorough()) {
+        for (std::size_t k = 0; k < hard.of_all.size(); ++k) {
+            fmt::print("frame {} mismatch alone {:.5f} gathered {:.5f}\n", k, hard.of_one[k], hard.of_all[k]);
+        }
+    }
     for (const char* lookup : {"pcf", "pcss"}) {
         const Figures soft =
             after_frames(scene, fmt::format("{},placement=jittered,resolution=64", lookup), 24, &Errors::rmse);
