@@ -99,6 +99,25 @@ TEST(Perceptual, ATexelIsTheRadiusOverCAlongBothAxes) {
     EXPECT_NEAR(share.side.x / (0.01 * diagonal / static_cast<double>(c)), 1, 8 / (share.texels.x - 2 * guard));
 }
 
+/// Where filters differ from sample to sample and none was measured, the floor is the radius: a texel is the floor over c.
+TEST(Perceptual, TheFloorIsTheRadiusOfWhatWasNotMeasured) {
+    Scene scene = test::long_floor(2, 60);
+    scene.lights[0].shape.angular_radius = 0.01F;
+    const auto diagonal = static_cast<double>(scene.bounds_ws.diagonal());
+    for (const double least : {0.002, 0.004, 0.008}) {
+        const std::string recipe = fmt::format("pcss,placement=perceptual,resolution=4096,perceptual.least={}", least);
+        const Drawn drawn = drawn_of(scene, recipe);
+        const double wanted = least * diagonal / static_cast<double>(c);
+        const Guard guard = guard_of(load_recipe(recipe), scene.lights[0], scene.bounds_ws);
+        for (int axis = 0; axis < 2; ++axis) {
+            // Texels are whole blocks of 8 beside the guard's.
+            const double block = 8 / (drawn.texels[axis] - 2 * static_cast<double>(guard.texels));
+            EXPECT_LE(drawn.side[axis], 1.003 * wanted) << least << " axis " << axis;
+            EXPECT_GE(drawn.side[axis], (0.997 - block) * wanted) << least << " axis " << axis;
+        }
+    }
+}
+
 TEST(Perceptual, DrawsAllWhereTheFilterHasNoSize) {
     const Scene scene = test::long_floor(2, 60);
     EXPECT_EQ(drawn_of(scene, "hard,placement=perceptual,resolution=512").texels, ivec2(512));
