@@ -6,7 +6,7 @@
 // Also here: area.glsl, bitmask.glsl, contours.glsl, cover.glsl, light_plane.glsl, patches.glsl, quads.glsl, search.glsl.
 // Also here: texels.glsl, sparse.h, sparse.cpp, sparse.glsl, emission.h, emission.cpp, emission.glsl,
 // Also here: emission_test.cpp, packets.h, packets.cpp, packets.glsl,
-// Also here: packet_pass.glsl, packets_test.cpp.
+// Also here: packet_pass.glsl, packets_test.cpp, occluders_test.cpp.
 #include "shadow/lookup/backprojection/backprojection.h"
 #include "shadow/lookup/backprojection/emission.h"
 #include "shadow/lookup/backprojection/light_plane.glsl"
@@ -167,9 +167,10 @@ ParamTable rows() {
         GN_PARAM(GnBackprojectionParams, early_out, boolean, 0, 1, "",
                  "Ends the search where least and greatest depth say that all of the light is seen, or none: V stays "
                  "the same where occluders leave no gaps."),
-        GN_PARAM(GnBackprojectionParams, budget, integer, 0, 65536, "texels",
-                 "Texels that a receiver reads at most: beyond them it takes a coarser level of the pyramid; 0 is no "
-                 "limit."),
+        GN_PARAM(
+            GnBackprojectionParams, budget, integer, 0, 65536, "texels",
+            "Texels that a receiver reads at most: beyond them it takes a coarser level of the pyramid; 0 is no limit. "
+            "With `blend` the finer of two levels has up to four times as many."),
         GN_PARAM(GnBackprojectionParams, blend, boolean, 0, 1, "",
                  "Blends two levels, so that no step shows where the level changes; costs both."),
         GN_PARAM(
