@@ -245,7 +245,7 @@ TEST(EmbedReload, AnEditedFunctionChangesTheNextFrame) {
     const std::string whole = text_of_file(file);
     const auto write = [&](const std::string& content) { std::ofstream(file) << content; };
     const std::string head = "float gn_pcf_visibility(";
-    const std::string parameters = "GnLookup at, sampler2DArray depth, sampler2DArray ids, GnPcfParams params) {\n";
+    const std::string parameters = "GnLookup at, GN_PCF_MAPS, GnPcfParams params) {\n";
     std::string text = whole;
     const std::size_t begin = text.find(head + parameters);
     ASSERT_NE(begin, std::string::npos);

@@ -118,6 +118,22 @@ Visibility add_lookup(const FrameInput& input, const Recipe& recipe, const Light
     return add_sparse(input, recipe, views, map, footprint, lookup);
 }
 
+/// Searches that nothing limits may be longer than a driver lets loops run, which it does not tell.
+std::string remark(const Scene&, const Recipe& recipe) {
+    const auto params = recipe.of<GnBackprojectionParams>("backprojection");
+    const bool unlimited = params.budget == 0 || params.layers > 1 || params.pyramid == GN_BACK_NONE;
+    if (!unlimited || recipe.resolution <= 256) {
+        return {};
+    }
+    return fmt::format(
+        "lookup 'backprojection' reads every texel between a receiver and the light where {}; software drivers end "
+        "such a loop "
+        "after 65,536 texels and do not say so, and V is wrong there: resolution=256 stays below",
+        params.layers > 1    ? "layers are peeled"
+        : params.budget == 0 ? "budget is 0"
+                             : "pyramid is none");
+}
+
 std::string refuses(const Scene&, const Light& light, const Recipe& recipe) {
     const auto params = recipe.of<GnBackprojectionParams>("backprojection");
     const Part& placement = recipe.placement_for(light.shape);
@@ -236,6 +252,7 @@ const Part& lookup_backprojection() {
         p.guard = guard;
         p.prologue = prologue;
         p.refuses = refuses;
+        p.remark = remark;
         return p;
     }();
     return part;

@@ -62,10 +62,10 @@ Scene rough_roof() {
 TEST(BackprojectionOccluders, WithoutWallsTheUmbrasClassIsWrong) {
     const Scene roof = rough_roof();
     const auto values = [&](const char* settings) {
-        return test::compare(roof,
-                             fmt::format("backprojection,resolution=64,backprojection.budget=0,backprojection.{}",
-                                         settings),
-                             {.width = 24, .height = 18, .samples = 1})
+        return test::compare(
+                   roof,
+                   fmt::format("backprojection,resolution=64,backprojection.budget=0,backprojection.{}", settings),
+                   {.width = 24, .height = 18, .samples = 1})
             .visibility()
             .values;
     };
@@ -104,6 +104,18 @@ TEST(BackprojectionOccluders, HalvesInTwoLayersAreWhatEachRuleSays) {
         EXPECT_EQ(glsl::gn_fused(fused, GN_FUSION_MEAN), c.mean);
         EXPECT_EQ(glsl::gn_fused(fused, GN_FUSION_PRODUCT), c.product);
     }
+}
+
+/// What may be longer than a driver's loops is said.
+TEST(BackprojectionOccluders, SearchesThatNothingLimitsAreRemarked) {
+    const Part& part = find_part(Stage::lookup, "backprojection");
+    const Scene& scene = test::built_in("slab");
+    const auto remarked = [&](const char* recipe) { return !part.remark(scene, load_recipe(recipe)).empty(); };
+    EXPECT_FALSE(remarked("backprojection"));
+    EXPECT_TRUE(remarked("backprojection,backprojection.layers=2"));
+    EXPECT_TRUE(remarked("backprojection,backprojection.budget=0"));
+    EXPECT_TRUE(remarked("backprojection,backprojection.pyramid=none"));
+    EXPECT_FALSE(remarked("backprojection,backprojection.layers=2,resolution=256"));
 }
 
 }  // namespace

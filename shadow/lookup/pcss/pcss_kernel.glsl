@@ -38,9 +38,10 @@ GN_FN vec2 gn_raster_point(int i, int side) {
 }  // namespace gn::glsl
 #else
 
-// A host may fix the kernel when it compiles, and list the points of a set on the unit disc:
+// A host may fix the kernel when it compiles:
 //   #define GN_PCSS_KERNEL GN_PCSS_VOGEL
-//   with #define GN_PCSS_SET vec2(0.0), vec2(0.5)
+// and list the points of a set on the unit disc:
+//   #define GN_PCSS_SET vec2(0.0), vec2(0.5)
 //   with #define GN_PCSS_SET_POINTS 2
 #ifndef GN_PCSS_KERNEL
 #define GN_PCSS_KERNEL params.kernel
