@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the taps of search and filter lie on the light: the kernels of `pcf`, in the light's own shape.
 // Sets: shadow/lookup/poisson.h [MF92]. Squares onto discs: Shirley, Chiu. A Low Distortion Map Between Disk and Square. Journal
-// of Graphics Tools 1997. [SC97]
+// of Graphics Tools 1997. [SC97], as base/disc.h on the host.
 #ifndef GN_SHADOW_LOOKUP_PCSS_KERNEL_GLSL
 #define GN_SHADOW_LOOKUP_PCSS_KERNEL_GLSL
 

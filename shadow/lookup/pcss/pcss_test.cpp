@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The penumbra of a half-plane is as wide as the light makes it, whatever the map's resolution and the kind of light.
 #include "shadow/lookup/pcss/pcss.glsl"
+
+#include "base/disc.h"
 #include "shadow/recipe/part.h"
 #include "shadow/show/show.h"
 #include "tests/penumbra.h"
@@ -166,6 +168,7 @@ TEST(Pcss, RastersAndSetsFillTheLightsShapeEvenly) {
         const vec2 q = glsl::gn_disc_of_square(p);
         EXPECT_NEAR(glm::length(q), std::max(std::abs(p.x), std::abs(p.y)), 1e-6);
         EXPECT_LT(glm::distance(glsl::gn_square_of_disc(q), p), 1e-5);
+        EXPECT_LT(glm::distance(disc_from_square(0.5F * p + 0.5F), q), 1e-6) << "the host's map";
         // A half of the disc that no axis of the map bounds.
         within += q.x + 0.3F * q.y > 0 ? 1 : 0;
     }
